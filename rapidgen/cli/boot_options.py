@@ -1,5 +1,6 @@
 """Options of `run` and `sim` for booting, the load check, and reports on inference."""
 
+import shlex
 import sys
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
@@ -7,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rapidgen.cli.project import project_robots
-from rapidgen.cli.terminal import use_colour
+from rapidgen.cli.terminal import letters, use_colour
 from rapidgen.diagnostics import DiagnosticError, Severity, refusal, render, suggest
 from rapidgen.system.project import find_project
 
@@ -19,6 +20,10 @@ if TYPE_CHECKING:
     from rapidgen.system.project import Project
 
 _UNKNOWN_NAMES = frozenset(("RG301", "RG302", "RG303"))
+
+
+_DEPTH, _WIDTH, _SHOWN = 3, 100, 4
+"""Search for builds and backups: levels of folders, folders of each, names shown."""
 
 
 def load_boot_target(
@@ -65,7 +70,10 @@ def load_boot_target(
         backup=backup,
         overrides=tuple(overrides or ()),
     )
-    result = load_target(targets, options)
+    try:
+        result = load_target(targets, options)
+    except DiagnosticError as fault:
+        raise _with_systems_below(fault, targets) from fault
     notes = [d for d in result.notes if project is None or project.is_reported(d)]
     if notes:
         sys.stderr.write(render(notes, colour=use_colour()))
@@ -79,6 +87,39 @@ def load_boot_target(
     if check:
         _reject_unloadable(result, project)
     return result
+
+
+def _with_systems_below(fault: DiagnosticError, targets: Sequence[str]) -> DiagnosticError:
+    """Add builds and backups below a folder without modules to its error."""
+    from rapidgen.system import is_backup, is_generated
+
+    folder = Path(targets[0]) if len(targets) == 1 else None
+    if fault.diagnostics[0].code != "RG709" or folder is None or not folder.is_dir():
+        return fault
+    found: list[Path] = []
+    level = [folder]
+    for _ in range(_DEPTH):
+        level = [below for one in level for below in _folders(one)]
+        found += [one for one in level if is_generated(one) or is_backup(one)]
+    if not found:
+        return fault
+    names = ", ".join(letters(str(one)) for one in found[:_SHOWN])
+    more = f" and {len(found) - _SHOWN} more" if len(found) > _SHOWN else ""
+    return refusal(
+        "RG709",
+        None,
+        f"{fault.diagnostics[0].message} itself; below it: {names}{more}",
+        f"name one: `rapidgen run {shlex.quote(str(found[0]))}`",
+    )
+
+
+def _folders(folder: Path) -> list[Path]:
+    """Return the first folders in a folder; hidden and unreadable ones are left out."""
+    try:
+        inside = sorted(one for one in folder.iterdir() if not one.name.startswith("."))
+        return [one for one in inside if one.is_dir()][:_WIDTH]
+    except OSError:
+        return []
 
 
 def _describes_itself(targets: Sequence[str]) -> bool:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from rapidgen.cli import options
-from rapidgen.cli.target_text import plain_number
+from rapidgen.cli.target_text import plain_number, target_first
 from rapidgen.diagnostics import refusal
 
 if TYPE_CHECKING:
@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 
 
 def status(
-    host: options.WebServices,
+    host: options.WebServices = "",
+    to: options.ToController = "",
     user: options.User = "",
     secrets: options.Secrets = None,
     fingerprint: options.Fingerprint = "",
@@ -35,6 +36,7 @@ def status(
 
     from rapidgen.cli.rws_session import controller
 
+    (host,) = target_first(to, host)
     with controller(host, user, secrets, fingerprint) as result:
         text = controller_state(result, modules=modules)
     if as_json:
@@ -137,7 +139,7 @@ def log(
             help="Controller (HOST[:PORT], rws://HOST, rwss://HOST) or saved event log.",
             metavar="HOST|FILE",
         ),
-    ],
+    ] = "",
     follow: Annotated[
         bool,
         typer.Option("--follow", "-f", help="Show new entries until Ctrl-C, also after restarts."),
@@ -148,6 +150,7 @@ def log(
     domain: Annotated[
         int, typer.Option(help="Domain of the entries; 0: all.", min=0, max=99, metavar="N")
     ] = 0,
+    to: options.ToController = "",
     user: options.User = "",
     secrets: options.Secrets = None,
     fingerprint: options.Fingerprint = "",
@@ -158,6 +161,7 @@ def log(
     The oldest entry is first. Ctrl-C ends `--follow`. A saved log is shown with an explanation of
     each event, and a summary of its errors and warnings.
     """
+    (host,) = target_first(to, host)
     if "://" not in host and ("/" in host or Path(host).is_file()):
         if follow:
             raise refusal(
@@ -214,7 +218,7 @@ def _saved(path: Path, count: int, domain: int, as_json: bool) -> int:
 
 
 def start_program(
-    host: options.WebServices,
+    host: options.WebServices = "",
     cycle: Annotated[
         Literal["asis", "once", "forever"],
         typer.Option(help="Number of cycles of the program; asis: as set on the controller."),
@@ -223,6 +227,7 @@ def start_program(
         bool, typer.Option("--main", help="First set the program pointers of all tasks to main.")
     ] = False,
     yes: options.Yes = False,
+    to: options.ToController = "",
     user: options.User = "",
     secrets: options.Secrets = None,
     fingerprint: options.Fingerprint = "",
@@ -235,6 +240,7 @@ def start_program(
     from rapidgen.cli.deployment import confirm_plan
     from rapidgen.cli.rws_session import ask_pendant, controller
 
+    (host,) = target_first(to, host)
     with controller(host, user, secrets, fingerprint) as result:
         text = controller_state(result)
         show_state(text)
@@ -251,7 +257,7 @@ def start_program(
 
 
 def stop_program(
-    host: options.WebServices,
+    host: options.WebServices = "",
     everything: Annotated[
         bool,
         typer.Option("--all", help="Also stop background tasks; a driver then serves no clients."),
@@ -259,6 +265,7 @@ def stop_program(
     motors_off: Annotated[
         bool, typer.Option("--motors-off", help="Also switch the motors off.")
     ] = False,
+    to: options.ToController = "",
     user: options.User = "",
     secrets: options.Secrets = None,
     fingerprint: options.Fingerprint = "",
@@ -270,6 +277,7 @@ def stop_program(
     """
     from rapidgen.cli.rws_session import controller
 
+    (host,) = target_first(to, host)
     with controller(host, user, secrets, fingerprint) as result:
         result.stop(everything=everything)
         if motors_off:
@@ -402,7 +410,7 @@ def _over_driver(config: str, name: str, value: float | None, to: str, group: st
 
 
 def symbols(
-    host: options.WebServices,
+    host: options.WebServices = "",
     name: Annotated[
         str,
         typer.Argument(
@@ -423,6 +431,7 @@ def symbols(
         bool, typer.Option("--values", help="Also the values of the data of TASK/MODULE.")
     ] = False,
     yes: options.Yes = False,
+    to: options.ToController = "",
     user: options.User = "",
     secrets: options.Secrets = None,
     fingerprint: options.Fingerprint = "",
@@ -440,6 +449,7 @@ def symbols(
     from rapidgen.cli.rws_session import ask_pendant, controller
     from rapidgen.client.rws.values import read
 
+    host, name, value = target_first(to, host, name, value)
     parts = name.split("/") if name else []
     try:
         literal = read(value) if value else None
@@ -495,13 +505,14 @@ def _value(result: "Controller", path: str) -> str | None:
 
 
 def backup(
-    host: options.WebServices,
     output: Annotated[
         Path, typer.Option("--output", "-o", help="New folder on this computer.", metavar="FOLDER")
     ],
+    host: options.WebServices = "",
     keep: Annotated[
         bool, typer.Option("--keep", help="Also leave the backup on the controller.")
     ] = False,
+    to: options.ToController = "",
     user: options.User = "",
     secrets: options.Secrets = None,
     fingerprint: options.Fingerprint = "",
@@ -516,6 +527,7 @@ def backup(
 
     from rapidgen.cli.rws_session import controller
 
+    (host,) = target_first(to, host)
     if output.exists():
         raise refusal("RG660", None, f"{output} exists", "use a new folder")
     with controller(host, user, secrets, fingerprint) as result:

@@ -57,7 +57,8 @@ def move(
     speed: Annotated[
         float | None,
         typer.Option(
-            help="Fraction of the file's or axes' speed; first run on a real robot: 0.1.",
+            help="Fraction of the file's or axes' speed; default: 100 mm/s of the tool at most "
+            "to a target, 0.1 for the first run of a file on a real robot.",
             metavar="FRACTION",
         ),
     ] = None,
@@ -111,14 +112,17 @@ def move(
     robot = Robot(config, address=to or None, group=group, watch=dry_run)
     must_ask = not dry_run and permitted(robot, to, yes=yes, real_robot=move_real_robot)
     with robot:
-        used = first_speed(robot.address, asked) if speed is None else speed
         if asked is not None:
+            used = first_speed(robot.address, asked) if speed is None else speed
             trajectory = asked.scaled(used)
-        elif figures is not None:
-            trajectory = _straight(robot, _joints(robot, units, figures), used)
         else:
-            assert requested is not None, "checked by _one_goal"
-            trajectory = _straight(robot, _posture(robot, *requested), used)
+            if figures is not None:
+                goal = _joints(robot, units, figures)
+            else:
+                assert requested is not None, "checked by _one_goal"
+                goal = _posture(robot, *requested)
+            used = slow_share(robot, goal) if speed is None else speed
+            trajectory = _straight(robot, goal, used)
         if resample is not None:
             trajectory = _resampled(trajectory, resample)
         if approach is not None:
@@ -126,7 +130,7 @@ def move(
         warnings = robot.check(trajectory)
         mode = _mode(robot, trajectory, stream)
         whose = "the axes'" if asked is None else "the file's"
-        _show_plan(robot, trajectory, f"{used:.0%} of {whose} speed", mode, units)
+        _show_plan(robot, trajectory, f"{100 * used:.2g} % of {whose} speed", mode, units)
         sys.stderr.write(render(warnings, colour=use_colour()))
         if dry_run:
             if files:
@@ -206,6 +210,31 @@ def _straight(robot: "Robot", goal: "Sequence[float]", speed: float) -> "Traject
     return Trajectory.from_points(ends, seconds=1.0, names=robot.group.names).timed(
         robot.group, speed
     )
+
+
+def slow_share(robot: "Robot", goal: "Sequence[float]") -> float:
+    """Return the default share of the axes' speed for a motion to a target.
+
+    The tool moves at most as fast as in Python without a speed, the axes at most at FIRST_SPEED.
+    """
+    import numpy as np
+
+    from rapidgen.client import NotSupported
+    from rapidgen.client.permission import FIRST_SPEED
+    from rapidgen.client.program import SLOW
+
+    group, start, end = robot.group, np.array(robot.state.joints), np.array(goal)
+    if not group.has_limits:
+        return FIRST_SPEED
+    way = np.abs(np.diff(group.to_wire(np.array([start, end])), axis=0))
+    seconds = float((way / group.speed).max())
+    shares = np.linspace(0.0, 1.0, _STEPS + 1)[:, None]
+    try:
+        places = np.array([robot.pose_of(p)[0] for p in start + shares * (end - start)])
+    except NotSupported:
+        return FIRST_SPEED
+    step = float(np.linalg.norm(np.diff(places, axis=0), axis=1).max())
+    return min(FIRST_SPEED, SLOW * seconds / max(_STEPS * step, 1e-9)) if seconds else FIRST_SPEED
 
 
 def within_limits(group: "Group", goal: "Sequence[float]", units: Units) -> None:
@@ -333,8 +362,8 @@ def _report(robot: "Robot", result: "Result", units: Units, as_json: bool) -> No
 
 
 _PLACE = "JOINT=STEP"
-_DEFAULT_SPEED = 0.05
-"""Speed of the tool without --speed, m/s."""
+_STEPS = 50
+"""Parts of a motion in which the tool's speed is measured."""
 
 
 def jog(
@@ -355,7 +384,7 @@ def jog(
         typer.Option(
             help="Speed of the tool, mm/s (m/s with --rad).",
             metavar="SPEED",
-            show_default="50 mm/s",
+            show_default="100 mm/s",
         ),
     ] = 0.0,
     rad: options.InRad = False,
@@ -373,6 +402,7 @@ def jog(
     """
     from rapidgen.cli.motion_execution import confirm_at, permitted, report_interruption
     from rapidgen.client import Robot
+    from rapidgen.client.program import SLOW
 
     units = Units(rad)
     if speed < 0 or not math.isfinite(speed):
@@ -385,7 +415,7 @@ def jog(
         if must_ask:
             confirm_at(robot)
         with report_interruption(robot, units):
-            result = robot.jog(speed=speed / units.length[1] or _DEFAULT_SPEED, **steps)
+            result = robot.jog(speed=speed / units.length[1] or SLOW, **steps)
         if as_json:
             import json
 

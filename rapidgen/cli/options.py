@@ -127,9 +127,11 @@ OperatorWait = Annotated[
 WebServices = Annotated[
     str,
     typer.Argument(
-        help="Controller: HOST[:PORT], rws://HOST, rwss://HOST or `sim`.", metavar="HOST"
+        help="Controller: HOST[:PORT], rws://HOST, rwss://HOST or `sim`; or use --to.",
+        metavar="HOST",
     ),
 ]
+ToController = Annotated[str, typer.Option("--to", help="The controller.", metavar="HOST|sim")]
 Fingerprint = Annotated[
     str, typer.Option(help="SHA-256 of the controller's certificate.", metavar="HEX")
 ]

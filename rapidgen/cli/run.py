@@ -86,6 +86,10 @@ def run(
     ] = "",
     coverage: options.Coverage = None,
     plot: options.Plot = None,
+    record: Annotated[
+        Path | None,
+        typer.Option("--record", help="Recording for `rapidgen view`.", metavar="NAME.mcap"),
+    ] = None,
     cycle_report: Annotated[
         list[Path] | None,
         typer.Option(
@@ -122,7 +126,7 @@ def run(
     memory.
     """
     from rapidgen.cli.boot_options import inference_report, load_boot_target
-    from rapidgen.cli.run_outputs import Observed, Outputs, read_earlier
+    from rapidgen.cli.run_outputs import Observed, Outputs, read_earlier, recording
     from rapidgen.controller.controller import VirtualController
     from rapidgen.machine.operator import read_answers
 
@@ -138,6 +142,7 @@ def run(
         cycle=tuple(cycle_report or ()),
         compared=compare.name if compare is not None else "",
         earlier=read_earlier(compare) if compare is not None else (),
+        record=record,
     )
     requested.check_files_writable()
     _no_configuration(files)
@@ -171,8 +176,9 @@ def run(
         sys.stderr.write(render(warnings))
         observed = Observed(controller, requested)
         watch = _watch(controller, result, collisions)
-        controller.start_program()
-        wrong = _run(controller, max_time, max_statements, cell)
+        with recording(controller, record, result):
+            controller.start_program()
+            wrong = _run(controller, max_time, max_statements, cell)
         if watch is not None:
             wrong += _collisions(watch, collisions or "error")
         sys.stderr.write(render(_event_warnings(controller)))

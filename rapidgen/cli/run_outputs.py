@@ -8,17 +8,20 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rapidgen._atomic_write import check_writable, write_whole
+from rapidgen.cli.terminal import letters
 from rapidgen.diagnostics import refusal
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from rapidgen.controller.boot_targets import Bootable
     from rapidgen.controller.controller import VirtualController
     from rapidgen.controller.cycle_report import CycleRecorder, EarlierRobot
     from rapidgen.controller.runner import ControllerRunner
     from rapidgen.controller.tracing import Coverage, Profile
     from rapidgen.motion.motion import Motion
     from rapidgen.motion.recorder import Recorder
+    from rapidgen.viewer.appearance import Appearance
 
 _SAMPLES = 5000
 """Maximum number of samples in a plot; the shortest period is 4 ms."""
@@ -41,6 +44,8 @@ class Outputs:
     """Name of an earlier cycle-time report."""
     earlier: "tuple[EarlierRobot, ...]" = ()
     """Robots of that report."""
+    record: Path | None = None
+    """Recording of a run, .mcap."""
 
     @property
     def tracing(self) -> bool:
@@ -49,7 +54,7 @@ class Outputs:
 
     def check_files_writable(self) -> None:
         """Refuse, before anything runs, a file that cannot be written behind it."""
-        files = [*self.coverage, *self.cycle]
+        files = [*self.coverage, *self.cycle, *([self.record] if self.record else [])]
         for path in self.cycle:
             if path.suffix.lower() not in (*_PAGES, ".json"):
                 raise refusal(
@@ -189,6 +194,34 @@ def observing(runner: "ControllerRunner", requested: Outputs) -> "Iterator[None]
         yield
     finally:
         now.write()
+
+
+def read_appearance(target: "Bootable") -> "Appearance":
+    """Return the appearance of the robots; report what cannot be drawn."""
+    from rapidgen.viewer.appearance import appearance
+
+    look = appearance(target.groups, target.described, target.overrides, target.cell)
+    for fault in look.faults:
+        sys.stderr.write(f"not drawn as described: {letters(fault)}\n")
+    return look
+
+
+@contextmanager
+def recording(
+    controller: "VirtualController", path: Path | None, target: "Bootable"
+) -> "Iterator[None]":
+    """Record a run on the virtual clock, if a file is given."""
+    if path is None:
+        yield
+        return
+    from rapidgen.viewer.recording.appearance import carried
+    from rapidgen.viewer.recording.writer import record
+
+    end = record(controller, path, (), carried(read_appearance(target)))
+    try:
+        yield
+    finally:
+        end()
 
 
 def read_earlier(path: Path) -> "tuple[EarlierRobot, ...]":

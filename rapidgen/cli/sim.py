@@ -131,7 +131,7 @@ def sim(
     messages and the event log go to stderr. Ctrl-C ends it. Other commands find it by `--to sim`.
     """
     from rapidgen.cli.boot_options import load_boot_target
-    from rapidgen.cli.run_outputs import Outputs, observing
+    from rapidgen.cli.run_outputs import Outputs, observing, read_appearance
     from rapidgen.controller.faults import FaultPlan, read_plan
     from rapidgen.controller.runner import ControllerRunner
     from rapidgen.machine.operator import read_answers
@@ -161,7 +161,7 @@ def sim(
     partners = {**result.surroundings.partners, **_partners(egm or ())}
     if ports is None and result.driver:
         _check_ports(result, host, port_offset)
-    look = _look(result) if view or record is not None else None
+    look = read_appearance(result) if view or record is not None else None
     with ControllerRunner.boot(
         result,
         clock="real",
@@ -375,16 +375,6 @@ def _guided(runner: "ControllerRunner", partners: "dict[str, tuple[str, int]]") 
         yield
     finally:
         end()
-
-
-def _look(target: "Bootable") -> "Appearance":
-    """Return the appearance of the robots; report what cannot be drawn."""
-    from rapidgen.viewer.appearance import appearance
-
-    look = appearance(target.groups, target.described, target.overrides, target.cell)
-    for fault in look.faults:
-        typer.echo(f"not drawn as described: {letters(fault)}", err=True)
-    return look
 
 
 @contextmanager

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from rapidgen.diagnostics import suggest
+from rapidgen.diagnostics import refusal, suggest
 
 if TYPE_CHECKING:
     from rapidgen.axes.frames import Pose, Quaternion, Vector
@@ -42,6 +42,21 @@ class Units:
     def length(self) -> tuple[str, float, int]:
         """As `joint`, for positions."""
         return self.joint("prismatic")
+
+
+def target_first(to: str, *words: str) -> tuple[str, ...]:
+    """Return the arguments of a command with its controller first.
+
+    `to` is the value of `--to`; then the arguments do not contain the controller. Raises
+    DiagnosticError RG901: no controller, or two.
+    """
+    if not to and not words[0]:
+        message = "no controller is named"
+        raise refusal("RG901", None, message, "add --to HOST, or --to sim for the simulator")
+    if to and words[-1]:
+        message = f"the controller is named twice: {words[0]} and --to {to}"
+        raise refusal("RG901", None, message, "leave one out")
+    return (to, *words[:-1]) if to else words
 
 
 def joints_text(units: Units, group: "Group", values: Sequence[float]) -> str:

@@ -287,7 +287,7 @@ class AsyncFlowRunner(FlowRunner):
     async def _open(self, effect: Open) -> None:
         loop = asyncio.get_running_loop()
         number, name = self.address.port(effect.port), effect.port.name.lower()
-        where = f"{self.address.host} port {number} ({name})"
+        where = f"{self.address.host} port {number} ({name} port of {self.address})"
         old = self._by_port.pop(effect.port, None)
         if old is not None and old.transport is not None:
             old.transport.close()

@@ -64,7 +64,7 @@ class Connection:
         try:
             self.socket = socket.create_connection((address.host, number), timeout)
         except OSError as error:
-            where = f"{address.host} port {number} ({name})"
+            where = f"{address.host} port {number} ({name} port of {address})"
             raise not_reached(where, error, timeout) from error
         self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         self.socket.setblocking(False)

@@ -203,11 +203,15 @@ def _report_unsure(draft: GroupDraft, keys: schema.GroupKeys, report: DraftFindi
     parts = [f"{joint.name} {'/'.join(joint.unsure)}" for joint in draft.joints if joint.unsure]
     parts += keys.unsure
     if parts:
+        joints = report.span(("groups", draft.name, "joints"), key=True)
+        # Figures of a shipped model: the line of the user's file that names it.
+        paths = [("groups", draft.name, "model"), ("model",)]
+        named = [path for path in paths if report.span(path, key=True).path != joints.path]
         report.add(
             "RG016",
             Severity.WARNING,
             f"figures without a sure source: {', '.join(parts)}",
-            ("groups", draft.name, "joints"),
+            named[0] if named else ("groups", draft.name, "joints"),
             "",
             "compare them with the data sheet of your robot before it moves, and write them "
             "into your configuration with their `source:`",

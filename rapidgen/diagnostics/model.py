@@ -149,19 +149,22 @@ def _notes(d: Diagnostic) -> list[str]:
 class DiagnosticError(Exception):
     """A user error that ends an operation.
 
-    Commands show only this exception. `exit_code` is 2 for bad input or usage and 1 for a rejection
-    or a failure.
+    The text and the notes are those of the first diagnostic; `diagnostics` has all. Commands show
+    only this exception. `exit_code` is 2 for bad input or usage and 1 for a rejection or a failure.
     """
 
     def __init__(
         self, diagnostics: Diagnostic | Iterable[Diagnostic], *, exit_code: int = 2
     ) -> None:
         result = (diagnostics,) if isinstance(diagnostics, Diagnostic) else tuple(diagnostics)
-        super().__init__("; ".join(f"{d.code}: {d.message}" for d in result))
+        text = f"{result[0].code}: {result[0].message}" if result else ""
+        if len(result) > 1:
+            text += f" (and {len(result) - 1} more, see `diagnostics`)"
+        super().__init__(text)
         # Python shows these notes below a traceback: callers of the library also see place and
         # help.
         if sys.version_info >= (3, 11):
-            for line in dict.fromkeys(line for d in result for line in _notes(d)):
+            for line in _notes(result[0]) if result else ():
                 self.add_note(line)
         self.diagnostics: tuple[Diagnostic, ...] = result
         self.exit_code = exit_code

@@ -12,8 +12,10 @@ import pytest
 from rapidgen.cli.app import main
 from rapidgen.cli.motion import within_limits
 from rapidgen.cli.target_text import Units, joints_of, read_figures
-from rapidgen.client import InvalidTrajectory, Trajectory
+from rapidgen.client import InvalidTrajectory, Robot, Trajectory
 from rapidgen.client.core.group import Group
+from rapidgen.client.permission import FIRST_SPEED
+from rapidgen.client.program import SLOW
 from rapidgen.config import load_config
 
 CELL = """\
@@ -24,6 +26,7 @@ signals:
   count: {kind: GO, access: write}
 """
 HOME = "0,0,0,0,30,0"
+FAST = ("--speed", "1")
 
 
 @pytest.fixture(scope="module")
@@ -51,12 +54,14 @@ def positions(sim):
 
 
 def at_home(cell, capsys):
-    run_command(capsys, "move", cell[0], "--joints", HOME, "--to", "sim")
+    run_command(capsys, "move", cell[0], "--joints", HOME, "--to", "sim", *FAST)
 
 
 def test_joints_are_typed_in_degrees(cell, capsys):
     path, sim = cell
-    displayed = run_command(capsys, "move", path, "--joints", "-10,5,0,0,30,0", "--to", "sim")
+    displayed = run_command(
+        capsys, "move", path, "--joints", "-10,5,0,0,30,0", "--to", "sim", *FAST
+    )
     assert "at joint_1 -10.00 deg, joint_2 5.00 deg" in displayed.out
     wanted = [math.radians(angle) for angle in (-10, 5, 0, 0, 30, 0)]
     assert positions(sim) == pytest.approx(wanted, abs=1e-5)
@@ -69,7 +74,7 @@ def test_some_by_name_and_in_radians(cell, capsys):
     path, sim = cell
     at_home(cell, capsys)
     run_command(
-        capsys, "move", path, "--joints", "joint_6=0.2,joint_2=-0.1", "--rad", "--to", "sim"
+        capsys, "move", path, "--joints", "joint_6=0.2,joint_2=-0.1", "--rad", "--to", "sim", *FAST
     )
     wanted = [0, -0.1, 0, 0, math.radians(30), 0.2]
     assert positions(sim) == pytest.approx(wanted, abs=1e-5)
@@ -77,8 +82,8 @@ def test_some_by_name_and_in_radians(cell, capsys):
 
 def test_a_robot_that_stands_at_its_limit_is_moved_on(cell, capsys):
     """float32, as the wire tells it, of 120 deg is more than 120 deg."""
-    run_command(capsys, "move", cell[0], "--joints", "0,0,0,0,120,0", "--to", "sim")
-    run_command(capsys, "move", cell[0], "--joints", "joint_1=10", "--to", "sim")
+    run_command(capsys, "move", cell[0], "--joints", "0,0,0,0,120,0", "--to", "sim", *FAST)
+    run_command(capsys, "move", cell[0], "--joints", "joint_1=10", "--to", "sim", *FAST)
     assert positions(cell[1])[0] == pytest.approx(math.radians(10), abs=1e-5)
 
 
@@ -93,14 +98,14 @@ def test_rounding_at_limit_of_coupled_axis_is_accepted():
 
 def test_move_to_printed_pose_reaches_it(cell, capsys):
     path, sim = cell
-    run_command(capsys, "move", path, "--joints", "10,10,0,0,30,5", "--to", "sim")
+    run_command(capsys, "move", path, "--joints", "10,10,0,0,30,5", "--to", "sim", *FAST)
     before = positions(sim)
     line = run_command(capsys, "pose", path, "--to", "sim").out.splitlines()[0]
     at_home(cell, capsys)
-    run_command(capsys, "move", path, "--pose", line.split()[1], "--to", "sim")
+    run_command(capsys, "move", path, "--pose", line.split()[1], "--to", "sim", *FAST)
     assert positions(sim) == pytest.approx(before, abs=1e-4)
     x, y, z = (float(value) for value in line.split()[1].split(",")[:3])
-    run_command(capsys, "move", path, "--pose", f"{x},{y},{z - 50}", "--to", "sim")
+    run_command(capsys, "move", path, "--pose", f"{x},{y},{z - 50}", "--to", "sim", *FAST)
     result = json.loads(run_command(capsys, "pose", path, "--to", "sim", "--json").out)
     assert result["position"] == pytest.approx([x / 1000, y / 1000, (z - 50) / 1000], abs=1e-4)
 
@@ -111,6 +116,24 @@ def test_a_pose_of_joints_asks_no_robot(capsys):
         "pose    364.35,0.00,594.00,0.50000,0.00000,0.86603,0.00000  (mm, quaternion)",
         "joints  0.00,0.00,0.00,0.00,30.00,0.00  (deg, mm)",
     ]
+
+
+@pytest.mark.parametrize(
+    ("goal", "axis", "turn", "slowest"),
+    [("30,0,0,0,30,0", 0, 30, "tool"), ("0,0,0,0,30,90", 5, 90, "axis")],
+)
+def test_default_speed_is_that_of_python(cell, capsys, goal, axis, turn, slowest):
+    path, _ = cell
+    at_home(cell, capsys)
+    with Robot(path, address="sim", watch=True) as robot:
+        radius = math.hypot(*robot.pose[0][:2])
+        axis_speed = robot.group.joints[axis].speed
+    text = run_command(capsys, "move", path, "--joints", goal, "--to", "sim", "--dry-run").err
+    seconds = float(re.search(r"points, ([\d.]+) s", text)[1])
+    speed = SLOW / radius if slowest == "tool" else FIRST_SPEED * axis_speed
+    at_speed = math.radians(turn) / speed
+    # Rounded to 0.01 s, and a ramp of about a tenth of a second.
+    assert at_speed - 0.01 < seconds < at_speed + 0.15
 
 
 def test_a_dry_run_draws_and_sends_nothing(cell, capsys, tmp_path):
@@ -128,7 +151,7 @@ def test_executed_motion_is_plotted_and_recorded_in_radians(cell, capsys, tmp_pa
     path, _ = cell
     at_home(cell, capsys)
     files = ["--plot", str(tmp_path / "p"), "--record", str(tmp_path / "r.csv")]
-    run_command(capsys, "move", path, "--joints", "joint_1=10", "--to", "sim", *files)
+    run_command(capsys, "move", path, "--joints", "joint_1=10", "--to", "sim", *files, *FAST)
     recorded = Trajectory.from_csv(tmp_path / "r.csv")
     assert recorded.positions[-1][0] == pytest.approx(math.radians(10), abs=1e-5)
     assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")

@@ -1,12 +1,14 @@
 """`rapidgen run`: output, exit codes, reports."""
 
 import json
+from contextlib import closing
 from math import radians
 from pathlib import Path
 
 import pytest
 
 from rapidgen.cli.app import main
+from rapidgen.viewer.recording.reader import RecordingFile
 
 PROGRAM = """MODULE demo
   PERS num shared := 0;
@@ -244,3 +246,21 @@ def test_duplicate_module_is_rejected_without_check(capsys, tmp_path: Path) -> N
     code, out, err = run(capsys, tmp_path / "a.mod", tmp_path / "b.mod", "--no-check")
     assert (code, out) == (1, [])
     assert "module 'm' is twice in this task" in err
+
+
+def test_folder_above_a_backup_names_it(tmp_path, capsys):
+    inner = tmp_path / "line 1" / "Backup_1"
+    (inner / "SYSPAR").mkdir(parents=True)
+    (inner / "SYSPAR" / "SYS.cfg").write_text("SYS:CFG_1.0::\n")
+    assert main(["run", str(tmp_path)]) == 2
+    text = capsys.readouterr().err
+    assert f"error[RG709]: no RAPID module in {tmp_path} itself; below it: {inner}" in text
+    assert f"`rapidgen run '{inner}'`" in text
+
+
+def test_run_is_recorded(program: Path, tmp_path: Path) -> None:
+    file = tmp_path / "run.mcap"
+    assert main(["run", str(program), "--entry", "moves", "--record", str(file)]) == 0
+    with closing(RecordingFile(file)) as recording:
+        joints = recording.at(recording.end).joints["rob1"]
+    assert joints.actual[0] == pytest.approx(radians(10), abs=1e-6)

@@ -10,6 +10,8 @@ from rapidgen.config import from_manifest, load_config, shipped_names, to_manife
 from rapidgen.diagnostics import DiagnosticError, Severity
 from tests.refusal import refusal, refused
 
+GROUP_MODEL = "name: a\ngroups:\n  rob1:\n    model: irb1200\n"
+
 
 def load(tmp_path, text, **options):
     path = tmp_path / "cell.yaml"
@@ -506,3 +508,11 @@ def test_positioner_requires_an_external_axis(tmp_path):
 def test_a_faulty_figure_is_not_also_a_missing_one(tmp_path):
     text = "model: irb120\njoints: {joint_1: {lower: x}, joint_2: {axis: rax_9}}"
     assert places(faults(tmp_path, text)) == [("RG006", 2, 27), ("RG006", 2, 47)]
+
+
+@pytest.mark.parametrize(("text", "line"), [("name: a\nmodel: irb1200\n", 2), (GROUP_MODEL, 4)])
+def test_unsure_figures_are_reported_at_the_model_key(tmp_path, text, line):
+    path = tmp_path / "cell.yaml"
+    path.write_text(text)
+    (result,) = load_config(path).diagnostics
+    assert (result.code, result.span.path, result.span.line) == ("RG016", str(path), line)
