@@ -12,6 +12,7 @@ from rapidgen.diagnostics import Diagnostic, refusal, render
 
 if TYPE_CHECKING:
     from rapidgen.collision.check import CollisionReport
+    from rapidgen.collision.timing import Timing
     from rapidgen.config.cell import CellDescription
     from rapidgen.config.model import GroupConfig, RobotConfig
 
@@ -28,13 +29,24 @@ def collision_summary(report: "CollisionReport") -> str:
         least = f"least clearance {1000 * far:.1f} mm, {one} - {other} at {when:.3f} s"
     else:
         least = "no pair is nearer than 100 mm"
+    timings = [_timing_text(timing) for timing in report.timings]
     lines = [
         f"collisions: {len(report.world.scene.pairs)} pairs, {report.proof.postures} postures; "
         f"{least}",
+        *timings,
         *(f"{one} - {other} may touch: {why}" for (one, other), why in _reasons(report)),
         *(f"not checked: {text}" for text in report.world.unchecked),
     ]
     return "" if is_quiet() else "".join(f"{line}\n" for line in lines)
+
+
+def _timing_text(timing: "Timing") -> str:
+    robots = " and ".join(timing.robots)
+    if timing.proved == float("inf"):
+        return f"{robots}: free for any timing"
+    if not timing.violations:
+        return f"{robots}: proved for time shifts up to {timing.proved:.2f} s"
+    return f"{robots}: proved for time shifts up to {timing.proved:.2f} of {timing.tolerance:.2f} s"
 
 
 def _reasons(report: "CollisionReport") -> list[tuple[list[str], str]]:

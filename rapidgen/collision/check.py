@@ -3,7 +3,7 @@
 The three results of the proof stay apart: RG820 a contact, RG821 too near, RG822 not proved.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +12,7 @@ from rapidgen.collision.path import Path
 from rapidgen.collision.proof import Proof, Violation, prove
 from rapidgen.collision.scene import Scene
 from rapidgen.collision.shapes import Array
+from rapidgen.collision.timing import ShiftViolation, Timing, Together, prove_timing
 from rapidgen.collision.world import World
 from rapidgen.diagnostics import Diagnostic, Severity, Span, error
 
@@ -81,11 +82,13 @@ class CollisionReport:
     path: Path
     proof: Proof
     diagnostics: tuple[Diagnostic, ...]
+    timings: tuple[Timing, ...] = ()
+    """Of each two robots that move, unless they keep one clock."""
 
     @property
     def is_free(self) -> bool:
         """True if all checked pairs keep their clearances, which is proved."""
-        return self.proof.is_free
+        return self.proof.is_free and not any(timing.violations for timing in self.timings)
 
     def clearances(self, samples: int = _SAMPLES) -> Clearances:
         """Return distances at evenly spaced times."""
@@ -93,9 +96,25 @@ class CollisionReport:
         return clearances(self.world.scene, self.path, times)
 
     def as_json(self) -> list[Mapping[str, object]]:
-        """Return the violations as data: m, s; names, point, normal, verdict."""
+        """Return the violations as data: m, s; names, point, verdict; normal or times.
+
+        A violation with a time shift has `times`, one for each body, instead of the normal.
+        """
         scene = self.world.scene
-        return [
+        shifted: list[Mapping[str, object]] = [
+            {
+                "verdict": v.verdict,
+                "time": min(v.times),
+                "times": list(v.times),
+                "bodies": list(scene.names(v.pair)),
+                "distance": v.distance,
+                "point": list(v.point),
+                "clearance": scene.pairs[v.pair].clearance,
+            }
+            for timing in self.timings
+            for v in timing.violations
+        ]
+        found: list[Mapping[str, object]] = [
             {
                 "verdict": v.verdict,
                 "time": v.time,
@@ -107,6 +126,7 @@ class CollisionReport:
             }
             for v in self.proof.violations
         ]
+        return found + shifted
 
 
 def check_path(
@@ -114,10 +134,12 @@ def check_path(
     path: Path,
     place_of: PlaceOf | None = None,
     severity: Severity = Severity.ERROR,
+    together: Sequence[Together] = (),
 ) -> CollisionReport:
-    """Prove a path and describe each violation.
+    """Prove a path and describe each violation; two robots also with a time shift (RG845, RG846).
 
-    Raises ModuleNotFoundError for hulls and cylinders without coal.
+    `together` are intervals in which robots share a clock. Raises ModuleNotFoundError for hulls and
+    cylinders without coal.
     """
     proof = prove(path, world.scene)
     found = [
@@ -134,7 +156,62 @@ def check_path(
             notes=(*found[-1].notes, f"and {left} further pairs"),
             severity=severity,
         )
-    return CollisionReport(world, path, proof, tuple(found))
+    timings: tuple[Timing, ...] = ()
+    if len(world.columns) > 1 and world.time_tolerance != 0:
+        known = frozenset(violation.pair for violation in proof.violations)
+        timings = prove_timing(
+            path, world.scene, world.columns, world.time_tolerance, together, known
+        )
+        for timing in timings:
+            found += [
+                _shift_finding(world, path, v, timing, place_of, severity)
+                for v in timing.violations[:_MOST]
+            ]
+    return CollisionReport(world, path, proof, tuple(found), timings)
+
+
+def _shift_finding(
+    world: World,
+    path: Path,
+    v: ShiftViolation,
+    timing: Timing,
+    place_of: PlaceOf | None,
+    severity: Severity,
+) -> Diagnostic:
+    """Describe a violation of two robots at two times (RG845, RG846)."""
+    one, other = world.scene.names(v.pair)
+    first, second = v.times
+    x, y, z = (1000 * value for value in v.point)
+    where = f"at ({x:.0f}, {y:.0f}, {z:.0f}) mm"
+    clearance = f"{1000 * world.scene.pairs[v.pair].clearance:.1f} mm"
+    at, then = f"{one} at {first:.3f} s", f"{other} at {second:.3f} s"
+    if v.verdict == "contact":
+        message = f"{at} touches {then} {where}"
+    elif v.verdict == "too near":
+        message = (
+            f"{at} is {1000 * v.distance:.1f} mm from {then} {where}; the clearance is {clearance}"
+        )
+    else:
+        message = (
+            f"the clearance of {clearance} between {at} and {then} is not proved {where}: "
+            f"{1000 * v.distance:.2f} mm"
+        )
+    notes = [f"proved for time shifts up to {timing.proved:.2f} s of {timing.tolerance:.2f} s"]
+    span = None
+    if place_of is not None:
+        for time in v.times:
+            text, place = place_of(path.position(time))
+            span = span or place
+            notes += [f"at {time:.3f} s: {text}"] if text else []
+    return error(
+        "RG846" if v.verdict == "not proved" else "RG845",
+        span,
+        message,
+        "synchronise the robots there (SyncMoveOn), or set `collision: {time_tolerance: S}` to the "
+        "shift that signals or WaitSyncTask guarantee",
+        notes=tuple(notes),
+        severity=severity,
+    )
 
 
 def _finding(

@@ -61,6 +61,28 @@ def frames_of_chain(group: GroupConfig, base: frames.Pose, first: int, column: i
     return RobotFrames(tuple(nodes), (node, pose), links)
 
 
+def stations_of(
+    group: GroupConfig, base: frames.Pose, first: int, column: int
+) -> tuple[tuple[Node, ...], Mapping[str, tuple[int, frames.Pose]]]:
+    """Return nodes of a group's positioners, and the user frame of each by its unit.
+
+    They are separate from the nodes of a description, which may lack positioners.
+    """
+    nodes: list[Node] = []
+    stations: dict[str, tuple[int, frames.Pose]] = {}
+    for positioner in group.positioners:
+        node, pose = WORLD, base
+        for step in steps_of(group, positioner.chain):
+            pose = frames.compose(pose, step.fixed)
+            columns = _columns(step, column)
+            if columns:
+                name = group.joints[step.joint].name if step.joint >= 0 else positioner.unit
+                nodes.append(Node(name, node, pose, step.axis, step.prismatic, columns))
+                node, pose = first + len(nodes) - 1, frames.IDENTITY
+        stations[positioner.unit] = (node, pose)
+    return tuple(nodes), stations
+
+
 def _columns(step: Step, column: int) -> tuple[tuple[int, float], ...]:
     if step.joint >= 0:
         return ((column + step.joint, 1.0),)

@@ -4,47 +4,39 @@
 is listed in `World.unchecked`; no result of a check leaves this list out.
 """
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
 from rapidgen.axes import frames
 from rapidgen.axes.mapping import JointMap
-from rapidgen.collision.hulls import hull_vertices
-from rapidgen.collision.meshes import MeshFault, is_open, triangles_of
+from rapidgen.collision.draft import Carrier, Draft, cell_shape, link_shapes, pose_of
+from rapidgen.collision.pairs import body_pairs, special_pairs, zone_pairs, zone_shapes
 from rapidgen.collision.robot import (
     MotionMismatch,
     RobotFrames,
     frames_of_chain,
     frames_of_description,
     shapes_on_node,
+    stations_of,
 )
-from rapidgen.collision.scene import Body, Pair, Scene
-from rapidgen.collision.shapes import Array, Shape, box, capsule, cylinder, half_space, hull, sphere
-from rapidgen.collision.srdf import read_srdf
-from rapidgen.collision.tree import WORLD, Node, Tree
+from rapidgen.collision.scene import Body, Scene
+from rapidgen.collision.shapes import Array, Shape, sphere
+from rapidgen.collision.tree import WORLD, Tree
 from rapidgen.config.cell import (
-    AllowedKeys,
     CellDescription,
     CellRobotKeys,
-    CellShape,
-    CollisionKeys,
-    ZoneKeys,
+    Thing,
 )
-from rapidgen.config.model import GroupConfig, Placement
+from rapidgen.config.model import GroupConfig
 from rapidgen.config.registry import is_path
 from rapidgen.config.urdf.visual_trees import Tree as Description
 from rapidgen.config.urdf.visual_trees import tree_of_file, trees
-from rapidgen.config.urdf.visuals import NoMesh, Visual, mesh_in_folder
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, error, suggest
 
-_LARGE, _SMALL = 10.0, 0.1
-"""Size of a robot's largest mesh over that of its chain, outside of which its unit is doubtful."""
-_PAIR = re.compile(r"\s+-\s+")
-_EVERYTHING = "all"
 _TCP = "tcp"
 NOT_SEEN = (
     "hoses and cables, people, what is not in the cell file, deviations of the real robot and of "
@@ -77,6 +69,8 @@ class World:
     diagnostics: tuple[Diagnostic, ...] = ()
     home: Mapping[str, Sequence[float]] = field(default_factory=dict)
     """Controller axis values at the start, by group."""
+    time_tolerance: float | None = None
+    """s between the clocks of two robots; None: the default of `prove_timing`."""
 
     def values(self, postures: Mapping[str, Array]) -> Array:
         """Return values (n, columns) of controller axis values (n, joints) by group.
@@ -104,23 +98,6 @@ class World:
         offset = np.array([joint.offset for joint in mapped.joints])
         converted: Array = sign * (result - offset)
         return converted
-
-
-@dataclass(slots=True, eq=False)
-class _Draft:
-    """Parts of a world while it is made."""
-
-    nodes: list[Node] = field(default_factory=list)
-    bodies: list[Body] = field(default_factory=list)
-    findings: list[Diagnostic] = field(default_factory=list)
-    unchecked: list[str] = field(default_factory=list)
-    neighbours: set[frozenset[str]] = field(default_factory=set)
-    columns: dict[str, slice] = field(default_factory=dict)
-
-    def report(
-        self, code: str, message: str, help: str = "", severity: Severity = Severity.ERROR
-    ) -> None:
-        self.findings.append(error(code, None, message, help, severity=severity))
 
 
 def sources_of(
@@ -161,30 +138,34 @@ def build_world(
     if the cell has meshes. The names of links have the group's name before them if there are
     several robots.
     """
-    draft = _Draft()
+    draft = Draft()
     keys = {robot.group.name: _keys_of(cell, robot.group) for robot in robots}
-    if len(robots) > 1:
-        _require_bases(cell, robots, draft)
-    for robot in robots:
-        _add_robot(cell, robot, keys[robot.group.name], len(robots) > 1, draft)
+    stands = _stands(robots)
+    bases = _bases(cell, stands, draft)
+    for stand, base in zip(stands, bases, strict=True):
+        shared: dict[str, str] = {}
+        for robot in stand:
+            foreign = frozenset(
+                joint.name for other in stand if other is not robot for joint in other.group.joints
+            )
+            place = _Place(base, len(robots) > 1, foreign, shared)
+            _add_robot(cell, robot, keys[robot.group.name], place, draft)
     for thing in cell.things:
-        shape = _shape(thing.shape, cell.folder, thing.name, draft)
-        if shape is not None:
-            draft.bodies.append(Body(thing.name, WORLD, (shape,)))
+        _add_thing(cell, thing, draft)
     zones = {
-        name: Body(f"zone {name}", WORLD, _zone_shapes(zone), role="zone")
+        name: Body(f"zone {name}", WORLD, zone_shapes(zone), role="zone")
         for name, zone in cell.zones.items()
     }
-    allowed, special = _special_pairs(cell, draft)
+    allowed, special = special_pairs(cell, draft)
     if any(d.severity is Severity.ERROR for d in draft.findings):
         raise DiagnosticError(draft.findings)
     columns = max((part.stop for part in draft.columns.values()), default=0)
     tree = Tree(draft.nodes, columns)
-    pairs = list(_pairs(cell, draft, tree, allowed, special))
+    pairs = list(body_pairs(cell, draft, tree, allowed, special))
     first = len(draft.bodies)
     for index, (name, zone) in enumerate(cell.zones.items()):
         draft.bodies.append(zones[name])
-        pairs += _zone_pairs(name, zone, first + index, draft)
+        pairs += zone_pairs(name, zone, first + index, draft)
     if any(d.severity is Severity.ERROR for d in draft.findings):
         raise DiagnosticError(draft.findings)
     if not pairs:
@@ -204,6 +185,7 @@ def build_world(
         allowed,
         tuple(draft.findings),
         {**starts, **(home or {})},
+        cell.collision.time_tolerance if cell.collision is not None else None,
     )
     return replace(world, diagnostics=(*world.diagnostics, *home_overlaps(world)))
 
@@ -242,30 +224,69 @@ def _home(keys: CellRobotKeys, group: GroupConfig) -> tuple[float, ...]:
     )
 
 
-def _base(cell: CellDescription, group: GroupConfig) -> frames.Pose:
-    for task, base in cell.bases.items():
-        if task.casefold() == group.task.casefold():
-            return base.position, base.orientation
-    return frames.IDENTITY
-
-
-def _require_bases(cell: CellDescription, robots: Sequence[RobotSource], draft: _Draft) -> None:
-    known = {task.casefold() for task in cell.bases}
+def _stands(robots: Sequence[RobotSource]) -> list[list[RobotSource]]:
+    """Return the robots by stand: the arms of one description stand together."""
+    stands: list[list[RobotSource]] = []
     for robot in robots:
-        if robot.group.task.casefold() not in known:
-            task = robot.group.task
+        for stand in stands:
+            if any(_is_together(robot, other) for other in stand):
+                stand.append(robot)
+                break
+        else:
+            stands.append([robot])
+    return stands
+
+
+def _is_together(one: RobotSource, other: RobotSource) -> bool:
+    """True for two arms that are in one description, with joints of their own."""
+    if one.description is None or other.description is None:
+        return False
+    own, others = ({joint.name for joint in robot.group.joints} for robot in (one, other))
+    known = {joint.name for joint in one.description.graph.robot.joints}
+    return not own & others and own | others <= known
+
+
+def _bases(
+    cell: CellDescription, stands: Sequence[Sequence[RobotSource]], draft: Draft
+) -> list[frames.Pose]:
+    """Return the base of each stand; several stands need them (RG828)."""
+    known = {task.casefold(): pose_of(base) for task, base in cell.bases.items()}
+    result = []
+    for stand in stands:
+        own = [task for robot in stand if (task := robot.group.task.casefold()) in known]
+        result.append(known[own[0]] if own else frames.IDENTITY)
+        if not own and len(stands) > 1:
+            task = stand[0].group.task
             draft.report(
                 "RG828",
-                f"{task} has no base, and the cell has {len(robots)} robots",
+                f"{task} has no base, and the cell has {len(stands)} robots",
                 f"robots: {{{task}: {{base: {{position: [X, Y, Z]}}}}}} places it in the world",
             )
+    return result
+
+
+@dataclass(frozen=True, slots=True)
+class _Place:
+    """A robot among others.
+
+    `foreign` are joints of arms in the same description, `shared` the links that an arm of it has
+    in the world already, with the names of their bodies.
+    """
+
+    base: frames.Pose
+    several: bool
+    foreign: frozenset[str]
+    shared: dict[str, str]
+
+    def prefix(self, group: GroupConfig) -> str:
+        """Return what stands before the names of its bodies."""
+        return f"{group.name}/" if self.several else ""
 
 
 def _add_robot(
-    cell: CellDescription, robot: RobotSource, keys: CellRobotKeys, several: bool, draft: _Draft
+    cell: CellDescription, robot: RobotSource, keys: CellRobotKeys, place: _Place, draft: Draft
 ) -> None:
-    group = robot.group
-    prefix = f"{group.name}/" if several else ""
+    group, prefix = robot.group, place.prefix(robot.group)
     if not group.chain:
         draft.report(
             "RG824",
@@ -280,19 +301,20 @@ def _add_robot(
         description = _description_file(keys.shapes, cell.folder, draft)
     if keys.shapes == "none":
         description = None
-    base = _base(cell, group)
     made: RobotFrames | None = None
     if description is not None:
+        graph = description.graph
         try:
-            made = frames_of_description(group, description.graph, base, len(draft.nodes), column)
+            made = frames_of_description(group, graph, place.base, len(draft.nodes), column)
         except MotionMismatch:
             draft.report(
                 "RG831",
                 f"the description of {group.name} moves otherwise than its configuration",
                 "use a URDF of this robot with the configuration's joint names",
             )
+    links: Mapping[str, tuple[Shape, ...]] = {}
     if made is None or description is None:
-        made = frames_of_chain(group, base, len(draft.nodes), column)
+        made = frames_of_chain(group, place.base, len(draft.nodes), column)
         draft.unchecked.append(f"links of {group.name}: no shapes, only its tools are checked")
         draft.report(
             "RG824",
@@ -301,20 +323,83 @@ def _add_robot(
             "file; `rapidgen fit-shapes` makes one",
             Severity.WARNING,
         )
-        links: Mapping[str, tuple[Shape, ...]] = {}
+        chosen = list(made.links)
     else:
-        links = _link_shapes(group, description, draft)
+        graph = description.graph
+        chosen = [
+            link
+            for link in made.links
+            if link not in place.shared
+            and not any(joint.name in place.foreign for joint in graph.path_to(link))
+        ]
+        links = link_shapes(group, description, chosen, draft)
     draft.nodes += made.nodes
-    for name, (node, pose) in made.links.items():
+    for name in chosen:
+        node, pose = made.links[name]
         own = links.get(name, ())
+        draft.carriers[prefix + name] = Carrier(node, pose, group.name)
         if own:
             shapes = shapes_on_node(own, pose)
             draft.bodies.append(Body(prefix + name, node, shapes, group.name, "link"))
-    draft.neighbours |= {frozenset(prefix + name for name in pair) for pair in made.neighbours}
-    _add_tools(cell, group, keys, several, made, draft)
+        if node == WORLD:
+            place.shared[name] = prefix + name
+    draft.neighbours |= {
+        frozenset(place.shared.get(name, prefix + name) for name in pair)
+        for pair in made.neighbours
+    }
+    _add_stations(group, made, column, place, draft)
+    _add_tools(cell, group, keys, place, made, draft)
 
 
-def _description_file(name: str, folder: Path, draft: _Draft) -> Description | None:
+def _add_stations(
+    group: GroupConfig, made: RobotFrames, column: int, place: _Place, draft: Draft
+) -> None:
+    """Add the user frames of positioners as carriers of objects."""
+    prefix, first = place.prefix(group), len(draft.nodes)
+    nodes, stations = stations_of(group, place.base, first, column)
+    moving = {index: node for index, node in enumerate(made.nodes, first - len(made.nodes))}
+    for unit, (node, pose) in stations.items():
+        joint = nodes[node - first].name if node != WORLD else ""
+        together = frozenset(
+            prefix + link
+            for link, (own, _) in made.links.items()
+            if own in moving and moving[own].name == joint
+        )
+        name = unit if unit not in draft.carriers else prefix + unit
+        draft.carriers[name] = Carrier(node, pose, "", together)
+    draft.nodes += nodes
+
+
+def _add_thing(cell: CellDescription, thing: Thing, draft: Draft) -> None:
+    """Add an object, on what it is fixed to (RG847)."""
+    shape = cell_shape(thing.shape, cell.folder, thing.name, draft)
+    carrier = Carrier(WORLD, frames.IDENTITY)
+    if thing.on:
+        known = list(draft.carriers)
+        if thing.on not in draft.carriers:
+            draft.report(
+                "RG847",
+                f"{thing.name} is on '{thing.on}', which is no link and no positioner",
+                suggest(thing.on, known) or f"names of this cell: {', '.join(known[:30])}",
+            )
+            return
+        carrier = draft.carriers[thing.on]
+    if shape is None:
+        return
+    if shape.kind == "half_space" and carrier.node != WORLD:
+        draft.report(
+            "RG832",
+            f"{thing.name} is a half-space on {thing.on}, which moves",
+            "use a box; half-spaces stand in the world",
+        )
+        return
+    shapes = shapes_on_node((shape,), carrier.pose)
+    role: Literal["link", "object"] = "link" if carrier.owner else "object"
+    draft.bodies.append(Body(thing.name, carrier.node, shapes, carrier.owner, role))
+    draft.neighbours |= {frozenset((thing.name, link)) for link in carrier.together}
+
+
+def _description_file(name: str, folder: Path, draft: Draft) -> Description | None:
     path = (folder / name).resolve()
     if not path.is_relative_to(folder.resolve()) or not path.is_file():
         draft.report("RG829", f"shapes: {name} is not in the cell file's folder or below")
@@ -330,15 +415,16 @@ def _add_tools(
     cell: CellDescription,
     group: GroupConfig,
     keys: CellRobotKeys,
-    several: bool,
+    place: _Place,
     made: RobotFrames,
-    draft: _Draft,
+    draft: Draft,
 ) -> None:
     """Add tools at the flange, and a point for the TCP of zones."""
     node, flange = made.flange
+    prefix = place.prefix(group)
     names = keys.mounted
     if names is None:
-        names = [] if several else list(cell.tool_shapes)
+        names = [] if place.several else list(cell.tool_shapes)
     for name in names:
         if name not in cell.tool_shapes:
             help = suggest(name, list(cell.tool_shapes)) or f"tools: {{{name}: {{shapes: [...]}}}}"
@@ -347,9 +433,8 @@ def _add_tools(
         shapes = [
             shape
             for one in cell.tool_shapes[name]
-            if (shape := _shape(one, cell.folder, name, draft)) is not None
+            if (shape := cell_shape(one, cell.folder, name, draft)) is not None
         ]
-        prefix = f"{group.name}/" if several else ""
         body = Body(prefix + name, node, shapes_on_node(shapes, flange), group.name, "tool")
         draft.bodies.append(body)
     if not names:
@@ -357,220 +442,7 @@ def _add_tools(
     if any(_TCP in zone.of for zone in cell.zones.values()):
         tools = {tool.name: tool for tool in cell.tools}
         tool = tools[names[0]] if names and names[0] in tools else group.tool
-        place = _pose(tool.frame) if tool.held else frames.IDENTITY
-        point = sphere(0.0, frames.compose(flange, place))
-        prefix = f"{group.name}/" if several else ""
+        point = sphere(
+            0.0, frames.compose(flange, pose_of(tool.frame) if tool.held else frames.IDENTITY)
+        )
         draft.bodies.append(Body(prefix + _TCP, node, (point,), group.name, "zone"))
-
-
-def _pose(placement: Placement) -> frames.Pose:
-    return placement.position, placement.orientation
-
-
-def _link_shapes(
-    group: GroupConfig, description: Description, draft: _Draft
-) -> dict[str, tuple[Shape, ...]]:
-    """Return shapes of links in their frames: `<collision>`, else the hull of `<visual>`."""
-    result: dict[str, tuple[Shape, ...]] = {}
-    from_visuals = []
-    largest = 0.0
-    for link in description.graph.robot.links:
-        visuals = description.collisions.get(link, ())
-        if not visuals:
-            visuals = description.visuals.get(link, ())
-            from_visuals += [link] if visuals else []
-        shapes = []
-        for visual in visuals:
-            shape = _of_visual(visual, link, draft)
-            if shape is None:
-                continue
-            if shape.kind == "hull":
-                largest = max(largest, 2 * shape.bounding_sphere()[1])
-            shapes.append(shape)
-        if shapes:
-            result[link] = tuple(shapes)
-        else:
-            draft.unchecked.append(f"link {link} of {group.name}: no shape")
-    if from_visuals:
-        draft.report(
-            "RG824",
-            f"{len(from_visuals)} links of {group.name} have no <collision>: "
-            f"{', '.join(from_visuals[:12])}",
-            "the convex hulls of their visuals are used; parts that are not drawn are not checked",
-            Severity.WARNING,
-        )
-    if largest > 0:
-        _check_size(group, largest, draft)
-    return result
-
-
-def _check_size(group: GroupConfig, largest: float, draft: _Draft) -> None:
-    """Report meshes whose size does not fit the chain (RG826)."""
-    chain = sum(float(np.linalg.norm(step.xyz)) for step in group.chain)
-    if not chain or _SMALL / 5 * chain < largest < _LARGE * chain:
-        return
-    factor = "0.001 0.001 0.001" if largest > chain else "1000 1000 1000"
-    draft.report(
-        "RG826",
-        f"the largest mesh of {group.name} is {largest:.3g} m long, its kinematic chain "
-        f"{chain:.3g} m",
-        f'is its unit wrong? <mesh ... scale="{factor}"/> in the description corrects it',
-    )
-
-
-def _of_visual(visual: Visual, link: str, draft: _Draft) -> Shape | None:
-    pose = (visual.xyz, frames.from_rpy(*visual.rpy))
-    match visual.kind, visual.size:
-        case "box", (x, y, z):
-            return box(x, y, z, pose)
-        case "cylinder", (radius, length):
-            return cylinder(radius, length, pose)
-        case "sphere", (radius,):
-            return sphere(radius, pose)
-    if visual.mesh is None:
-        draft.report("RG827", f"mesh of {link}: {visual.fault}", "correct the description")
-        return None
-    return _hull_of(visual.mesh, np.array(visual.size), pose, link, draft)
-
-
-def _hull_of(
-    path: Path, scale: Array, pose: frames.Pose, owner: str, draft: _Draft
-) -> Shape | None:
-    try:
-        triangles = triangles_of(path)
-        points = np.unique(triangles.reshape(-1, 3), axis=0) * scale
-        vertices = hull_vertices(points)
-    except (MeshFault, ValueError) as why:
-        draft.report(
-            "RG827", f"mesh {path.name} of {owner} cannot be used: {why}", "export it again"
-        )
-        return None
-    if is_open(triangles):
-        draft.report(
-            "RG827",
-            f"mesh {path.name} of {owner} is open",
-            "its convex hull is used, which closes it",
-            Severity.INFO,
-        )
-    return hull(vertices, pose, path.name)
-
-
-def _shape(shape: CellShape, folder: Path, owner: str, draft: _Draft) -> Shape | None:
-    """Return a shape of the cell file (RG825, RG827)."""
-    pose = _pose(shape.frame)
-    match shape.kind, shape.size:
-        case "box", (x, y, z):
-            return box(x, y, z, pose)
-        case "cylinder", (radius, length):
-            return cylinder(radius, length, pose)
-        case "capsule", (radius, length):
-            return capsule(radius, length, pose)
-        case "sphere", (radius,):
-            return sphere(radius, pose)
-        case "half_space", (x, y, z):
-            return half_space(frames.rotate(pose[1], (x, y, z)), pose[0])
-    try:
-        path = mesh_in_folder(shape.mesh, folder)
-    except NoMesh as why:
-        draft.report("RG827", f"mesh of {owner}: {why}", "put it into the cell file's folder")
-        return None
-    if not shape.scale:
-        draft.report("RG825", f"mesh of {owner} has no unit", "add `unit: mm` or `unit: m`")
-        return None
-    return _hull_of(path, np.full(3, shape.scale), pose, owner, draft)
-
-
-def _zone_shapes(zone: ZoneKeys) -> tuple[Shape, ...]:
-    """Return the box to keep out of, or the six half-spaces around one to keep inside."""
-    low = np.array(zone.box.low) / 1000
-    high = np.array(zone.box.high) / 1000
-    x, y, z = ((low + high) / 2).tolist()
-    if zone.keep == "out":
-        a, b, c = np.abs(high - low).tolist()
-        return (box(a, b, c, ((x, y, z), frames.UNIT)),)
-    sides = []
-    for axis in np.eye(3):
-        for normal, corner in ((axis, low), (-axis, high)):
-            u, v, w = corner.tolist()
-            sides.append(half_space(normal.tolist(), (u, v, w)))
-    return tuple(sides)
-
-
-def _zone_pairs(name: str, zone: ZoneKeys, index: int, draft: _Draft) -> list[Pair]:
-    """Return pairs of a zone with the bodies that it concerns (RG829)."""
-    moving = [(i, b) for i, b in enumerate(draft.bodies[:index]) if b.owner]
-    result = []
-    for word in zone.of:
-        chosen = [
-            i
-            for i, b in moving
-            if (word == _EVERYTHING and b.role != "zone") or word in (b.name, b.name.split("/")[-1])
-        ]
-        # The base of a robot does not move.
-        chosen = [i for i in chosen if draft.bodies[i].node != WORLD or word != _EVERYTHING]
-        if not chosen and word != _EVERYTHING:
-            names = [b.name for _, b in moving]
-            draft.report("RG829", f"zone {name}: no '{word}' moves", suggest(word, names))
-        result += [Pair(i, index, 0.0) for i in chosen]
-    return result
-
-
-def _special_pairs(
-    cell: CellDescription, draft: _Draft
-) -> tuple[dict[frozenset[str], str], dict[frozenset[str], float]]:
-    """Return reasons of allowed pairs, and clearances in m of others (RG829, RG833)."""
-    keys = cell.collision or CollisionKeys()
-    names = [body.name for body in draft.bodies]
-    allowed: dict[frozenset[str], str] = {}
-    special: dict[frozenset[str], float] = {}
-    for text, value in keys.pairs.items():
-        parts = _PAIR.split(text.strip())
-        unknown = [part for part in parts if part not in names]
-        if len(parts) != 2 or unknown:
-            wrong = unknown[0] if unknown else text
-            help = suggest(wrong, names) or f"bodies of this cell: {', '.join(names[:30])}"
-            draft.report("RG829", f"collision.pairs: '{text}': no body '{wrong}'", help)
-            continue
-        if isinstance(value, AllowedKeys):
-            allowed[frozenset(parts)] = value.allowed
-        else:
-            special[frozenset(parts)] = value / 1000
-    if keys.srdf:
-        for one, other, reason in read_srdf(cell.folder, keys.srdf):
-            allowed.setdefault(frozenset((one, other)), f"SRDF: {reason}")
-    return allowed, special
-
-
-def _pairs(
-    cell: CellDescription,
-    draft: _Draft,
-    tree: Tree,
-    allowed: Mapping[frozenset[str], str],
-    special: Mapping[frozenset[str], float],
-) -> Iterator[Pair]:
-    """Yield pairs of bodies that can change their distance, without neighbours.
-
-    Neighbours are bodies of one robot that a joint connects, or that hang on the same node or on
-    parent and child.
-    """
-    keys = cell.collision or CollisionKeys()
-    clearance, own_clearance = keys.clearance / 1000, keys.self_clearance / 1000
-    for i, one in enumerate(draft.bodies):
-        for j, other in enumerate(draft.bodies[i + 1 :], i + 1):
-            names = frozenset((one.name, other.name))
-            if one.node == other.node or "zone" in (one.role, other.role) or names in allowed:
-                continue
-            is_own = bool(one.owner) and one.owner == other.owner
-            if is_own and (
-                names in draft.neighbours or _are_neighbours(tree, one.node, other.node)
-            ):
-                continue
-            standard = own_clearance if is_own else clearance
-            yield Pair(i, j, special.get(names, standard))
-
-
-def _are_neighbours(tree: Tree, a: int, b: int) -> bool:
-    def parent(node: int) -> int:
-        return WORLD if node == WORLD else tree.nodes[node].parent
-
-    return parent(a) == b or parent(b) == a

@@ -186,6 +186,13 @@ class ShapeKeys(StrictModel):
 class ThingKeys(ShapeKeys):
     """An object of the cell. The page draws meshes; collision checks use all of them."""
 
+    on: Annotated[
+        str,
+        Rule(
+            "What it is fixed to: a positioner's mechanical unit (its frame is the user frame), or "
+            "a robot's link, such as a cable package; default: the world."
+        ),
+    ] = ""
     points: Annotated[
         list[Vector] | None,
         Rule(
@@ -225,6 +232,14 @@ class CollisionKeys(StrictModel):
         dict[str, float | AllowedKeys],
         Rule("`NAME - NAME`: clearance in mm, or `{allowed: REASON}`."),
     ] = field(default_factory=dict)
+    time_tolerance: Annotated[
+        float | None,
+        Rule(
+            "Seconds by which one robot may be early or late against another; 0: they share a "
+            "clock; default: the larger one of 1 s and 10 % of the duration.",
+            ge=0,
+        ),
+    ] = None
     srdf: Annotated[
         str, Rule("SRDF in this file's folder or below; its disabled pairs are allowed.")
     ] = ""
@@ -319,6 +334,8 @@ class Thing:
 
     name: str
     shape: CellShape
+    on: str = ""
+    """Mechanical unit or link that it moves with; empty: the world."""
 
     @property
     def mesh(self) -> str:
@@ -474,7 +491,7 @@ def _thing(name: str, keys: ThingKeys, report: DraftFindings, arm: Arm) -> Thing
             )
         else:
             frame = pose
-    return Thing(name, _shape(keys, path, report, arm, frame))
+    return Thing(name, _shape(keys, path, report, arm, frame), keys.on)
 
 
 def frame_of_points(

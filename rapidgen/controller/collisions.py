@@ -12,6 +12,7 @@ import numpy as np
 
 from rapidgen.collision.check import Clearances, CollisionReport, check_path, clearances
 from rapidgen.collision.path import Path
+from rapidgen.collision.timing import Together
 from rapidgen.collision.world import World, build_world, sources_of
 from rapidgen.config.cell import CellDescription
 from rapidgen.diagnostics import Severity, Span
@@ -39,6 +40,7 @@ class CollisionWatch:
         configurations: Mapping[str, FilePath] | None = None,
     ) -> None:
         """`configurations` are the files of groups with descriptions, by group."""
+        self._controller = controller
         groups = [group.config for group in controller.motion.groups.values()]
         recorders = controller.record()
         now = [controller.scheduler.now]
@@ -65,7 +67,16 @@ class CollisionWatch:
         def place_of(position: float) -> tuple[str, Span | None]:
             return self._place(round(path.time(position) * S))
 
-        return check_path(self.world, path, place_of, severity)
+        return check_path(self.world, path, place_of, severity, self.together())
+
+    def together(self) -> list[Together]:
+        """Return the intervals of synchronised movement so far, with the groups of their tasks."""
+        motion, meetings = self._controller.motion, self._controller.meetings
+        names = {group.config.task.lower(): name for name, group in motion.groups.items()}
+        return [
+            (start / S, end / S, frozenset(names[task] for task in tasks if task in names))
+            for start, end, tasks in meetings.together(self._controller.scheduler.now)
+        ]
 
     def clearance(self) -> Clearances:
         """Return the clearances along the path so far."""

@@ -661,3 +661,19 @@ class SyncPoints:
         """Moves of one \\ID: by partners and \\ID."""
         self.any_task = False
         """True in an inferred cell: unknown tasks are ignored."""
+        self._together: dict[frozenset[str], int] = {}
+        self._ended: list[tuple[int, int, frozenset[str]]] = []
+
+    def begin_together(self, members: frozenset[str], now: int) -> None:
+        """Note that tasks move synchronously from now (ns) on; harmless when they do already."""
+        self._together.setdefault(members, now)
+
+    def end_together(self, members: frozenset[str], now: int) -> None:
+        """Note the end of synchronous movement; harmless without one."""
+        since = self._together.pop(members, None)
+        if since is not None:
+            self._ended.append((since, now, members))
+
+    def together(self, now: int) -> list[tuple[int, int, frozenset[str]]]:
+        """Return intervals (ns) of synchronous movement so far, with the names of the tasks."""
+        return [*self._ended, *((since, now, names) for names, since in self._together.items())]

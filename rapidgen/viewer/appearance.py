@@ -147,7 +147,8 @@ def appearance(
 
 def _things(cell: CellDescription, meshes: Meshes) -> Iterator[SeenThing]:
     for thing in cell.things:
-        if not thing.mesh:
+        # The page places objects in the world only.
+        if not thing.mesh or thing.on:
             continue
         mesh = meshes.name_in(thing.mesh, cell.folder)
         pose = pose_of((thing.frame.position, thing.frame.orientation))

@@ -265,6 +265,7 @@ def _synchronised(task: RapidTask) -> bool:
 
 def _forget(task: Task, names: Iterable[str]) -> None:
     motion = task.controller.motion
+    task.controller.meetings.end_together(_partners(task), task.scheduler.now)
     for other in task.controller.rapid_tasks.values():
         group = motion.moved_by(other.name) if other.name.lower() in names else None
         if group is not None:
@@ -285,6 +286,7 @@ def sync_move_on(task: Task, identity: Ref, tasks: Ref, time_out: float | None) 
     wait_standing(task)
     _meet(task, ("on", _point(task, identity)), members, time_out, "ERR_SYNCMOVEON")
     data_of(task, group).partners = members
+    task.controller.meetings.begin_together(members, task.scheduler.now)
 
 
 @builtin("SyncMoveOff")
@@ -335,6 +337,8 @@ def _pause(task: Task, *, suspended: bool) -> None:
         )
     _meet(task, name, members, None, "ERR_SYNCMOVEON")
     data.suspended = suspended
+    meetings, now = task.controller.meetings, task.scheduler.now
+    (meetings.end_together if suspended else meetings.begin_together)(members, now)
 
 
 @builtin("TasksInSync")

@@ -1,0 +1,114 @@
+"""Pairs of bodies to check: all that can change their distance, allowed ones, and zones."""
+
+import re
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from rapidgen.axes import frames
+from rapidgen.collision.draft import Draft
+from rapidgen.collision.scene import Pair
+from rapidgen.collision.shapes import Shape, box, half_space
+from rapidgen.collision.srdf import read_srdf
+from rapidgen.collision.tree import WORLD, Tree
+from rapidgen.config.cell import AllowedKeys, CellDescription, CollisionKeys, ZoneKeys
+from rapidgen.diagnostics import suggest
+
+_PAIR = re.compile(r"\s+-\s+")
+_EVERYTHING = "all"
+
+
+def zone_shapes(zone: ZoneKeys) -> tuple[Shape, ...]:
+    """Return the box to keep out of, or the six half-spaces around one to keep inside."""
+    low = np.array(zone.box.low) / 1000
+    high = np.array(zone.box.high) / 1000
+    x, y, z = ((low + high) / 2).tolist()
+    if zone.keep == "out":
+        a, b, c = np.abs(high - low).tolist()
+        return (box(a, b, c, ((x, y, z), frames.UNIT)),)
+    sides = []
+    for axis in np.eye(3):
+        for normal, corner in ((axis, low), (-axis, high)):
+            u, v, w = corner.tolist()
+            sides.append(half_space(normal.tolist(), (u, v, w)))
+    return tuple(sides)
+
+
+def zone_pairs(name: str, zone: ZoneKeys, index: int, draft: Draft) -> list[Pair]:
+    """Return pairs of a zone with the bodies that it concerns (RG829)."""
+    moving = [(i, b) for i, b in enumerate(draft.bodies[:index]) if b.owner]
+    result = []
+    for word in zone.of:
+        chosen = [
+            i
+            for i, b in moving
+            if (word == _EVERYTHING and b.role != "zone") or word in (b.name, b.name.split("/")[-1])
+        ]
+        # The base of a robot does not move.
+        chosen = [i for i in chosen if draft.bodies[i].node != WORLD or word != _EVERYTHING]
+        if not chosen and word != _EVERYTHING:
+            names = [b.name for _, b in moving]
+            draft.report("RG829", f"zone {name}: no '{word}' moves", suggest(word, names))
+        result += [Pair(i, index, 0.0) for i in chosen]
+    return result
+
+
+def special_pairs(
+    cell: CellDescription, draft: Draft
+) -> tuple[dict[frozenset[str], str], dict[frozenset[str], float]]:
+    """Return reasons of allowed pairs, and clearances in m of others (RG829, RG833)."""
+    keys = cell.collision or CollisionKeys()
+    names = [body.name for body in draft.bodies]
+    allowed: dict[frozenset[str], str] = {}
+    special: dict[frozenset[str], float] = {}
+    for text, value in keys.pairs.items():
+        parts = _PAIR.split(text.strip())
+        unknown = [part for part in parts if part not in names]
+        if len(parts) != 2 or unknown:
+            wrong = unknown[0] if unknown else text
+            help = suggest(wrong, names) or f"bodies of this cell: {', '.join(names[:30])}"
+            draft.report("RG829", f"collision.pairs: '{text}': no body '{wrong}'", help)
+            continue
+        if isinstance(value, AllowedKeys):
+            allowed[frozenset(parts)] = value.allowed
+        else:
+            special[frozenset(parts)] = value / 1000
+    if keys.srdf:
+        for one, other, reason in read_srdf(cell.folder, keys.srdf):
+            allowed.setdefault(frozenset((one, other)), f"SRDF: {reason}")
+    return allowed, special
+
+
+def body_pairs(
+    cell: CellDescription,
+    draft: Draft,
+    tree: Tree,
+    allowed: Mapping[frozenset[str], str],
+    special: Mapping[frozenset[str], float],
+) -> Iterator[Pair]:
+    """Yield pairs of bodies that can change their distance, without neighbours.
+
+    Neighbours are bodies of one robot that a joint connects, or that hang on the same node or on
+    parent and child.
+    """
+    keys = cell.collision or CollisionKeys()
+    clearance, own_clearance = keys.clearance / 1000, keys.self_clearance / 1000
+    for i, one in enumerate(draft.bodies):
+        for j, other in enumerate(draft.bodies[i + 1 :], i + 1):
+            names = frozenset((one.name, other.name))
+            if one.node == other.node or "zone" in (one.role, other.role) or names in allowed:
+                continue
+            is_own = bool(one.owner) and one.owner == other.owner
+            if names in draft.neighbours or (
+                is_own and _are_neighbours(tree, one.node, other.node)
+            ):
+                continue
+            standard = own_clearance if is_own else clearance
+            yield Pair(i, j, special.get(names, standard))
+
+
+def _are_neighbours(tree: Tree, a: int, b: int) -> bool:
+    def parent(node: int) -> int:
+        return WORLD if node == WORLD else tree.nodes[node].parent
+
+    return parent(a) == b or parent(b) == a
