@@ -5,7 +5,9 @@ It then stops its robot and ends.
 
 import signal
 
-INTERRUPTIONS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+_HANGUP: signal.Signals | None = getattr(signal, "SIGHUP", None)
+"""None on Windows, which has no such signal."""
+INTERRUPTIONS = (signal.SIGINT, signal.SIGTERM, *((_HANGUP,) if _HANGUP is not None else ()))
 
 
 def heeded_signals() -> tuple[signal.Signals, ...]:
@@ -15,7 +17,7 @@ def heeded_signals() -> tuple[signal.Signals, ...]:
     must be able to interrupt a robot that such a job moves: SIGINT and SIGTERM are never ignored.
     SIGHUP stays ignored below `nohup`, which has this purpose.
     """
-    if signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:
+    if _HANGUP is not None and signal.getsignal(_HANGUP) is signal.SIG_IGN:
         return INTERRUPTIONS[:2]
     return INTERRUPTIONS
 

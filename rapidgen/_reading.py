@@ -7,15 +7,27 @@ the file is being opened.
 """
 
 import errno
+import functools
+import operator
 import os
 import stat
 from io import BufferedReader
+from types import ModuleType
 
 StrPath = str | os.PathLike[str]
 
-_FLAGS = os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC | os.O_NOCTTY
+
+def _flags(*names: str) -> int:
+    """Return the flags that the operating system has; Windows lacks most of them."""
+    return functools.reduce(operator.or_, (getattr(os, name, 0) for name in names))
+
+
+_FLAGS = _flags("O_RDONLY", "O_NONBLOCK", "O_CLOEXEC", "O_NOCTTY", "O_BINARY", "O_NOINHERIT")
+_NO_LINK = _flags("O_NOFOLLOW")
 # Only Linux has O_PATH, which needs no right to list a folder.
-_STEP = getattr(os, "O_PATH", os.O_RDONLY) | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC
+_STEP = _flags("O_PATH", "O_DIRECTORY", "O_CLOEXEC")
+_BY_FOLDER = bool(_NO_LINK) and os.open in os.supports_dir_fd
+"""Files can be opened relative to an open folder, without following a link."""
 _PART = 1 << 20
 """Bytes of one read.
 
@@ -71,31 +83,56 @@ def open_foreign(
     return open(descriptor, "rb")
 
 
-def _open(path: str, folder: int | None = None, flags: int = _FLAGS) -> int:
+def _open(path: str, folder: int | None = None) -> int:
     # Opening a device can have effects, so its type is checked first. A file that replaces it in
     # between is opened without waiting, and `fstat` of the descriptor rejects it.
-    follow = not flags & os.O_NOFOLLOW
-    _check_regular(os.stat(path, dir_fd=folder, follow_symlinks=follow), path)
-    return os.open(path, flags, dir_fd=folder)
+    if folder is None:
+        _check_regular(os.stat(path), path)
+        return os.open(path, _FLAGS)
+    _check_regular(os.stat(path, dir_fd=folder, follow_symlinks=False), path)
+    return os.open(path, _FLAGS | _NO_LINK, dir_fd=folder)
 
 
 def _open_below(path: str, below: str) -> int:
     root = os.path.realpath(below)
     real = os.path.realpath(path)
-    if os.path.commonpath((root, real)) != root:
+    if not is_within(real, root):
         raise OutsideFolder(errno.EPERM, f"it lies outside of {below}", path)
+    if not _BY_FOLDER:
+        return _open_checked(real, root, below)
     # The real path has no links: a link on it was created after `realpath`, and O_NOFOLLOW rejects
     # it.
     *folders, name = os.path.relpath(real, root).split(os.sep)
-    current = os.open(root, _STEP & ~os.O_NOFOLLOW)
+    current = os.open(root, _STEP)
     try:
         for folder in folders:
-            inner = os.open(folder, _STEP, dir_fd=current)
+            inner = os.open(folder, _STEP | _NO_LINK, dir_fd=current)
             os.close(current)
             current = inner
-        return _open(name, current, _FLAGS | os.O_NOFOLLOW)
+        return _open(name, current)
     finally:
         os.close(current)
+
+
+def _open_checked(real: str, root: str, below: str) -> int:
+    """Open a path without links, on a system that cannot open files relative to a folder."""
+    descriptor = _open(real)
+    if not is_within(os.path.realpath(real), root):  # a link came in between
+        os.close(descriptor)
+        raise OutsideFolder(errno.EPERM, f"it lies outside of {below}", real)
+    return descriptor
+
+
+def is_within(path: str, folder: str, *, paths: ModuleType = os.path) -> bool:
+    """Return True if a path is a folder or lies in it, both absolute and without links.
+
+    `paths`: posixpath or ntpath. On Windows, paths on different drives have no common part.
+    """
+    try:
+        common = paths.commonpath((folder, path))
+    except ValueError:
+        return False
+    return bool(paths.normcase(common) == paths.normcase(folder))
 
 
 def _check_regular(status: os.stat_result, path: StrPath) -> None:

@@ -1,10 +1,10 @@
 """Registry of this user's running simulators, one locked file each.
 
 The lock ends with its process, in whatever way; an unlocked file belongs to a simulator that was
-killed. Other users of this machine cannot add a file: the folder is the user's own.
+killed. Other users of this machine cannot add a file: the folder is the user's own. A system
+without such locks (Windows) has no registry: no simulator is registered, and none is found.
 """
 
-import fcntl
 import json
 import os
 import stat
@@ -46,10 +46,12 @@ def published(simulator: Simulator) -> Iterator[bool]:
 
     False: this user has no private folder.
     """
-    own = folder()
-    if not _is_own(own, make=True):
+    own = folder() if _has_locks() else ""
+    if not own or not _is_own(own, make=True):
         yield False
         return
+    import fcntl
+
     path = os.path.join(own, f"sim-{simulator.pid}-{simulator.name.replace(os.sep, '_')}.json")
     text = {
         "name": simulator.name,
@@ -76,8 +78,8 @@ def running() -> tuple[list[Simulator], list[str]]:
 
     Those files are removed.
     """
-    own = folder()
-    if not _is_own(own, make=False):
+    own = folder() if _has_locks() else ""
+    if not own or not _is_own(own, make=False):
         return [], []
     result, left = [], []
     names = sorted(os.listdir(own), key=lambda name: _made(os.path.join(own, name)))
@@ -111,7 +113,15 @@ def _read(text: dict[str, object]) -> Simulator:
     )
 
 
+def _has_locks() -> bool:
+    from importlib.util import find_spec
+
+    return find_spec("fcntl") is not None
+
+
 def _is_held(handle: int) -> bool:
+    import fcntl
+
     try:
         fcntl.flock(handle, fcntl.LOCK_SH | fcntl.LOCK_NB)
     except BlockingIOError:

@@ -236,7 +236,7 @@ def _no_reader() -> int:
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, sys.stdout.fileno())
     os.dup2(nowhere, sys.stderr.fileno())
-    return 128 + signal.SIGPIPE
+    return 128 + getattr(signal, "SIGPIPE", 13)  # Windows lacks the name
 
 
 def _system_error(fault: OSError, as_json: bool) -> int:

@@ -398,7 +398,9 @@ def at_most(megabytes: int) -> Iterator[None]:
         raise refusal(
             "RG901", None, f"--max-memory {megabytes} is not a size", "such as --max-memory 1024"
         )
-    if sys.platform == "win32":
+    from importlib.util import find_spec
+
+    if find_spec("resource") is None:
         yield
         return
     import resource

@@ -5,6 +5,7 @@ and the socket would cost milliseconds. Points are written so that a STOP fits b
 any moment.
 """
 
+import select
 import selectors
 import socket
 import threading
@@ -15,7 +16,6 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from inspect import GEN_CLOSED, getgeneratorstate
-from select import POLLOUT, poll
 from typing import TypeVar
 
 from rapidgen.client import flows
@@ -179,10 +179,14 @@ class Connection:
     def _wait_writable(self, seconds: float) -> None:
         number = self.socket.fileno()
         # Another thread has closed the socket: the next write reports it.
-        if number >= 0:
-            waiter = poll()
-            waiter.register(number, POLLOUT)
+        if number < 0:
+            return
+        if hasattr(select, "poll"):  # Windows has none; `select` takes no high numbers elsewhere
+            waiter = select.poll()
+            waiter.register(number, select.POLLOUT)
             waiter.poll(seconds * 1000)
+        else:
+            select.select((), (number,), (), seconds)
 
     def _lost(self, error: OSError) -> ConnectionLost:
         name = self.port.name.lower()

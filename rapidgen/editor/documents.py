@@ -11,6 +11,7 @@ from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from types import ModuleType
 from typing import Final, Literal
 from urllib.parse import quote, unquote, urlsplit
 
@@ -33,11 +34,12 @@ ENCODINGS: Final = ("auto", "utf-8", "latin-1", "cp1252", "gbk")
 # -- addresses -----------------------------------------------------------------------------------
 
 
-def path_of(uri: str) -> str:
+def path_of(uri: str, *, paths: ModuleType = os.path) -> str:
     """Return the path of a `file:` address; the address itself for another one.
 
-    Editors write drives of Windows as `file:///c%3A/folder`. An untitled document keeps its
-    address as its name, so that each document has one.
+    Editors write drives of Windows as `file:///c%3A/folder`, and its network folders as
+    `file://server/share`. An untitled document keeps its address as its name, so that each document
+    has one. `paths`: posixpath or ntpath.
     """
     parts = urlsplit(uri)
     if parts.scheme != "file":
@@ -47,14 +49,16 @@ def path_of(uri: str) -> str:
         path = path[1:]
     if parts.netloc and parts.netloc != "localhost":
         path = f"//{parts.netloc}{path}"
-    return os.path.normpath(path) if path else uri
+    return str(paths.normpath(path)) if path else uri
 
 
-def uri_of(path: str) -> str:
+def uri_of(path: str, *, paths: ModuleType = os.path) -> str:
     """Return the address of a path; an untitled document's name is its address."""
     if not is_file(path):
         return path
-    text = os.path.abspath(path).replace(os.sep, "/")
+    text = paths.abspath(path).replace(paths.sep, "/")
+    if text.startswith("//"):
+        return "file:" + quote(text)
     return "file://" + quote(text if text.startswith("/") else "/" + text)
 
 

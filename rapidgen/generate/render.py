@@ -64,7 +64,9 @@ def _compiled() -> jinja2.BytecodeCache | None:
         os.makedirs(folder, mode=0o700, exist_ok=True)
     except OSError:
         return None
-    usable = os.access(folder, os.W_OK) and os.stat(folder).st_uid == os.getuid()
+    # Code from a folder of another user would be executed; Windows has no numbers of users.
+    is_own = not hasattr(os, "getuid") or os.stat(folder).st_uid == os.getuid()
+    usable = is_own and os.access(folder, os.W_OK)
     return jinja2.FileSystemBytecodeCache(folder) if usable else None
 
 
