@@ -9,17 +9,19 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
+from typing import Literal
 
 from rapidgen._reading import TooLarge, read_foreign
-from rapidgen.axes.frames import IDENTITY, Pose
-from rapidgen.config.cell import CellDescription
+from rapidgen.axes.frames import IDENTITY, UNIT, Pose, multiply
+from rapidgen.config.cell import CellDescription, CellShape
 from rapidgen.config.layers import Overrides
 from rapidgen.config.model import GroupConfig
 from rapidgen.config.urdf.source import xml_fault
 from rapidgen.config.urdf.visual_trees import Tree, trees
 from rapidgen.config.urdf.visuals import NoMesh, Visual, mesh_in_folder
-from rapidgen.viewer.messages import SeenThing
+from rapidgen.viewer.messages import SeenShape, SeenThing
 from rapidgen.viewer.primitive_urdf import Drawing, described
+from rapidgen.viewer.primitives import standing
 from rapidgen.viewer.robots import pose_of
 from rapidgen.viewer.urdf_visuals import drawn, shares
 
@@ -43,7 +45,7 @@ class Appearance:
     """Deviations from the description."""
 
     things: tuple[SeenThing, ...] = ()
-    """Objects of the cell."""
+    """Objects, zones and tool shapes of the cell."""
     bases: Mapping[str, Pose] = field(default_factory=dict)
     """Poses of robots by task in lower case, as far as known."""
 
@@ -139,21 +141,59 @@ def appearance(
             drawings[group.name] = replace(drawing, base=None) if free else drawing
         else:
             meshes.faults.append(f"the description does not move as the chain of {group.name} does")
-    things = tuple(_things(cell, meshes)) if cell is not None else ()
+    things = tuple(_things(cell, groups, meshes)) if cell is not None else ()
     placed = cell.bases if cell is not None else {}
     bases = {task.casefold(): (at.position, at.orientation) for task, at in placed.items()}
     return Appearance(drawings, MappingProxyType(meshes.files), tuple(meshes.faults), things, bases)
 
 
-def _things(cell: CellDescription, meshes: Meshes) -> Iterator[SeenThing]:
+def _things(
+    cell: CellDescription, groups: Sequence[GroupConfig], meshes: Meshes
+) -> Iterator[SeenThing]:
+    """Return objects, zones and the shapes of mounted tools."""
     for thing in cell.things:
-        # The page places objects in the world only.
-        if not thing.mesh or thing.on:
+        if thing.on:
+            # The page places objects in the world only.
             continue
-        mesh = meshes.name_in(thing.mesh, cell.folder)
-        pose = pose_of((thing.frame.position, thing.frame.orientation))
-        if mesh:
-            yield SeenThing(name=thing.name, mesh=mesh, scale=thing.scale, pose=pose)
+        shape = _shape(thing.shape, cell.folder, meshes)
+        if shape is not None:
+            yield SeenThing(name=thing.name, shapes=(shape,))
+    for name, zone in cell.zones.items():
+        low, high = zone.box.low, zone.box.high
+        x, y, z = ((a + b) / 2000 for a, b in zip(low, high, strict=True))
+        size = tuple(abs(b - a) / 1000 for a, b in zip(low, high, strict=True))
+        box = SeenShape(kind="box", size=size, pose=pose_of(((x, y, z), UNIT)))
+        role: Literal["keep-in", "keep-out"] = "keep-in" if zone.keep == "inside" else "keep-out"
+        yield SeenThing(name=name, role=role, shapes=(box,))
+    for group in groups:
+        keys = {task.casefold(): robot for task, robot in cell.robots.items()}
+        robot = keys.get(group.task.casefold())
+        mounted = None if robot is None else robot.mounted
+        if mounted is None:
+            # As in collision checks: with several robots, it is open who carries a tool.
+            mounted = list(cell.tool_shapes) if len(groups) == 1 else []
+        for name in mounted:
+            own = (_shape(one, cell.folder, meshes) for one in cell.tool_shapes.get(name, ()))
+            shapes = tuple(shape for shape in own if shape is not None)
+            if shapes:
+                yield SeenThing(name=name, role="tool", robot=group.name, shapes=shapes)
+
+
+def _shape(shape: CellShape, folder: Path, meshes: Meshes) -> SeenShape | None:
+    """Return a shape of the cell as a message; None: its mesh is missing, which is reported."""
+    pose = (shape.frame.position, shape.frame.orientation)
+    match shape.kind, shape.size:
+        case "mesh", _:
+            name = meshes.name_in(shape.mesh, folder)
+            size = (shape.scale or 1.0,)
+            return (
+                SeenShape(kind="mesh", size=size, pose=pose_of(pose), mesh=name) if name else None
+            )
+        case "half_space", (x, y, z):
+            normal = standing((x, y, z), (0.0, 1.0, 0.0))
+            outer = (pose[0], multiply(pose[1], normal))
+            return SeenShape(kind="half_space", pose=pose_of(outer))
+    return SeenShape(kind=shape.kind, size=shape.size, pose=pose_of(pose))
 
 
 def _fitting(group: GroupConfig, result: Mapping[str, Tree]) -> Tree | None:

@@ -5,6 +5,7 @@ m, times s; positions and quaternions (q1..q4, q1 the scalar) are lists. A new m
 the union of its direction at the end of this file.
 """
 
+import math
 from collections.abc import Mapping
 from typing import Annotated, Literal, TypeAlias
 
@@ -63,13 +64,30 @@ class SeenRobot(MessageModel):
     """Pose of the drawn root: apart from robots that would overlap."""
 
 
+class SeenShape(MessageModel):
+    """A shape in its owner's frame.
+
+    `size`: x, y, z of a box; radius and length; radius; scale of a mesh.
+    """
+
+    kind: Literal["box", "cylinder", "capsule", "sphere", "half_space", "mesh", "hull"]
+    """The axis of cylinders and capsules, and the normal of half-spaces, is z."""
+    size: tuple[float, ...] = ()
+    pose: Pose
+    mesh: str = ""
+    """Name on this server."""
+    corners: tuple[tuple[float, float, float], ...] = ()
+    """Vertices of a convex hull."""
+
+
 class SeenThing(MessageModel):
-    """A mesh of the cell, by its name on this server."""
+    """An object or zone of the cell in the world, or a tool at the flange of a robot."""
 
     name: str
-    mesh: str
-    scale: float
-    pose: Pose
+    role: Literal["object", "tool", "keep-in", "keep-out"] = "object"
+    robot: str = ""
+    """Group that carries the tool."""
+    shapes: tuple[SeenShape, ...]
 
 
 class Scene(MessageModel):
@@ -105,6 +123,8 @@ class RobotPlace(MessageModel):
     tool_held: bool
     work_object: Pose
     standing: bool
+    blocked: str = ""
+    """Reason why the robot cannot be jogged now; empty: it can."""
 
 
 class Positions(MessageModel):
@@ -321,15 +341,32 @@ class Jog(MessageModel):
 
 
 class JogTo(MessageModel):
-    """Move a robot at rest to a TCP pose in its world, on the same branch.
+    """Move a robot at rest to a TCP pose in a frame, on the same branch.
 
-    None: unchanged.
+    None: unchanged. `base` is the robot's world.
     """
 
     do: Literal["jog-to"] = "jog-to"
     group: str
+    frame: Literal["base", "work_object"] = "base"
     position: tuple[Finite | None, Finite | None, Finite | None]
     orientation: tuple[Finite, Finite, Finite, Finite] | None
+
+
+class JogBy(MessageModel):
+    """Move the TCP of a robot at rest along and about one axis of a frame, on the same branch.
+
+    The step starts from the robot's position when the request is executed.
+    """
+
+    do: Literal["jog-by"] = "jog-by"
+    group: str
+    frame: Literal["base", "tool", "work_object"]
+    axis: Annotated[int, Field(ge=0, le=2)]
+    """x, y or z."""
+    distance: Annotated[float, Field(ge=-1, le=1)] = 0.0
+    angle: Annotated[float, Field(ge=-math.pi, le=math.pi)] = 0.0
+    """About the axis through the TCP."""
 
 
 class Copy(MessageModel):
@@ -380,6 +417,7 @@ Request: TypeAlias = (
     | AnswerQuestion
     | Jog
     | JogTo
+    | JogBy
     | Copy
     | SetSignal
     | OpenInEditor

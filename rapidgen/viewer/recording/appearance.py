@@ -96,7 +96,11 @@ def _with(look: Appearance, files: Mapping[str, bytes]) -> Appearance:
         name: replace(drawing, urdf=_MESH.sub(known, drawing.urdf))
         for name, drawing in look.drawings.items()
     }
-    things = tuple(thing for thing in look.things if thing.mesh in files)
+    things = tuple(
+        thing
+        for thing in look.things
+        if all(shape.mesh in files for shape in thing.shapes if shape.kind == "mesh")
+    )
     return replace(look, drawings=drawings, things=things, files=MappingProxyType(dict(files)))
 
 

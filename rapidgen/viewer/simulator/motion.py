@@ -10,7 +10,17 @@ from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import MoveFrames
 from rapidgen.runtime.task.task import Task
 from rapidgen.viewer.appearance import PLAIN, Appearance
-from rapidgen.viewer.messages import Copy, Jog, JogTo, Positions, Request, RobotPlace, Scene, ToPage
+from rapidgen.viewer.messages import (
+    Copy,
+    Jog,
+    JogBy,
+    JogTo,
+    Positions,
+    Request,
+    RobotPlace,
+    Scene,
+    ToPage,
+)
 from rapidgen.viewer.pose_snippets import copied
 from rapidgen.viewer.primitive_urdf import Drawing
 from rapidgen.viewer.provider import Handler, RequestRejected
@@ -51,15 +61,19 @@ class MotionProvider:
 
     def handlers(self) -> Mapping[type, Handler]:
         """Handlers of jogging, and of positions as text."""
-        return {Jog: self._jog, JogTo: self._jog_to, Copy: self._copy}
+        return {Jog: self._jog, JogTo: self._jog_to, JogBy: self._jog_by, Copy: self._copy}
 
     def _state(self, groups: tuple[RobotPlace, ...]) -> Positions:
         return Positions(time=self._controller.now, groups=groups)
 
     def _now(self) -> tuple[RobotPlace, ...]:
-        return tuple(map(self._of, self._groups, self._drawings))
+        blocked = self._blocked()
+        return tuple(
+            self._of(group, drawing, blocked)
+            for group, drawing in zip(self._groups, self._drawings, strict=True)
+        )
 
-    def _of(self, group: MotionGroup, drawing: Drawing) -> RobotPlace:
+    def _of(self, group: MotionGroup, drawing: Drawing, blocked: str) -> RobotPlace:
         actual = group.positions()
         carried = self._carried(group)
         tcp = carried.tcp(group.kinematics, actual)
@@ -72,6 +86,7 @@ class MotionProvider:
             tool_held=carried.held,
             work_object=pose_of(carried.object),
             standing=group.is_standing,
+            blocked=blocked,
         )
 
     def _carried(self, group: MotionGroup) -> ToolAndWorkObject:
@@ -110,29 +125,59 @@ class MotionProvider:
 
     def _jog_to(self, request: Request) -> str:
         assert isinstance(request, JogTo)
-        group = self._group(request.group)
-        carried, kinematics = self._carried(group), group.kinematics
-        now = carried.tcp(kinematics, group.positions())
-        if kinematics is None or now is None or not carried.held:
-            raise RequestRejected(f"{group.name} does not carry its TCP")
+        group, tcp, carried = self._tcp(request.group)
+        outer = carried.object if request.frame == "work_object" else frames.IDENTITY
+        now = frames.within(outer, tcp)
         turned = request.orientation or now[1]
         if not any(turned):
             raise RequestRejected("this is not an orientation")
         x, y, z = (
             own if own is not None else at for own, at in zip(request.position, now[0], strict=True)
         )
-        flange = frames.compose(((x, y, z), frames.normalise(turned)), frames.invert(carried.tool))
-        result = kinematics.follow(flange, group.positions())
+        place = ((x, y, z), frames.normalise(turned))
+        self._put_tcp(group, frames.compose(outer, place), carried)
+        return ""
+
+    def _jog_by(self, request: Request) -> str:
+        assert isinstance(request, JogBy)
+        group, tcp, carried = self._tcp(request.group)
+        turned = {"base": frames.UNIT, "tool": tcp[1], "work_object": carried.object[1]}
+        unit = [0.0, 0.0, 0.0]
+        unit[request.axis] = 1.0
+        axis = frames.rotate(turned[request.frame], (unit[0], unit[1], unit[2]))
+        place = frames.add(tcp[0], frames.scale(axis, request.distance))
+        orientation = frames.multiply(frames.about(axis, request.angle), tcp[1])
+        self._put_tcp(group, (place, frames.normalise(orientation)), carried)
+        return ""
+
+    def _tcp(self, name: str) -> tuple[MotionGroup, frames.Pose, ToolAndWorkObject]:
+        """Return a robot, its TCP in the world, tool and work object."""
+        group = self._group(name)
+        carried = self._carried(group)
+        now = carried.tcp(group.kinematics, group.positions())
+        if group.kinematics is None or now is None or not carried.held:
+            raise RequestRejected(f"{group.name} does not carry its TCP")
+        return group, now, carried
+
+    def _put_tcp(self, group: MotionGroup, tcp: frames.Pose, carried: ToolAndWorkObject) -> None:
+        assert group.kinematics is not None
+        flange = frames.compose(tcp, frames.invert(carried.tool))
+        result = group.kinematics.follow(flange, group.positions())
         if result is None:
             raise RequestRejected("the TCP does not reach that place as the arm is bent now")
         self._put(group, result)
+
+    def _blocked(self) -> str:
+        """Return the reason why no robot can be jogged now; empty if they can."""
+        if any(t.state == "running" and t.spec.motion for t in self._tasks()):
+            return "a program controls the robot: stop it first"
         return ""
 
     def _put(self, group: MotionGroup, axes: Posture) -> None:
         for fault in outside(group.config.joints, axes):
             raise RequestRejected(f"{fault.joint.name} would leave its range")
-        if any(t.state == "running" and t.spec.motion for t in self._tasks()):
-            raise RequestRejected("a program has the robot: stop it first")
+        if why := self._blocked():
+            raise RequestRejected(why)
         self._carrier(group)  # Stored, because the path may be dropped.
         try:
             group.jog(axes)

@@ -69,13 +69,13 @@ class PendantProvider:
         assert isinstance(request, PendantAction)
         c = self._controller
         if request.action == "start" and not c.start_program():
-            raise RequestRejected("the start was refused: the event log says why")
+            raise RequestRejected("the start was rejected: see the event log")
         if request.action == "pp-to-main" and self._status().running:
             raise RequestRejected("a program runs: stop it first")
         if request.action != "start":
             c.perform(request.action)
         if request.action == "motors-on" and not c.motors_on:
-            raise RequestRejected("the motors stay off: the event log says why")
+            raise RequestRejected("the motors stay off: see the event log")
         return ""
 
     def _mode(self, request: Request) -> str:

@@ -135,10 +135,21 @@ export interface Jog {
   readonly axes: readonly (number | null)[];
 }
 
-/** Move a robot at rest to a TCP pose in its world, on the same branch. None: unchanged. */
+/** Move the TCP of a robot at rest along and about one axis of a frame, on the same branch. The step starts from the robot's position when the request is executed. */
+export interface JogBy {
+  readonly do: "jog-by";
+  readonly group: string;
+  readonly frame: "base" | "tool" | "work_object";
+  readonly axis: number;
+  readonly distance: number;
+  readonly angle: number;
+}
+
+/** Move a robot at rest to a TCP pose in a frame, on the same branch. None: unchanged. `base` is the robot's world. */
 export interface JogTo {
   readonly do: "jog-to";
   readonly group: string;
+  readonly frame: "base" | "work_object";
   readonly position: readonly [number | null, number | null, number | null];
   readonly orientation: readonly [number, number, number, number] | null;
 }
@@ -197,7 +208,7 @@ export interface PageReply {
 /** A request and the number of its reply. */
 export interface PageRequest {
   readonly id: number;
-  readonly request: PendantAction | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | JogTo | Copy | SetSignal | OpenInEditor | ResetConnection | InjectFault | Listen | ReadSource | ReadOrigin | SetBreakpoint | RemoveBreakpoint | DebugCommand | RunTo | RunFor | StopOnErrors | SelectFrame | Evaluate | Assign | SetWatch | CountLines | Seek | Play | ReadCurves | UploadTrajectory | RunTrajectory | RemoveTrajectory;
+  readonly request: PendantAction | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | JogTo | JogBy | Copy | SetSignal | OpenInEditor | ResetConnection | InjectFault | Listen | ReadSource | ReadOrigin | SetBreakpoint | RemoveBreakpoint | DebugCommand | RunTo | RunFor | StopOnErrors | SelectFrame | Evaluate | Assign | SetWatch | CountLines | Seek | Play | ReadCurves | UploadTrajectory | RunTrajectory | RemoveTrajectory;
 }
 
 /** State of the pendant's status bar. */
@@ -307,6 +318,7 @@ export interface RobotPlace {
   readonly tool_held: boolean;
   readonly work_object: Pose;
   readonly standing: boolean;
+  readonly blocked: string;
 }
 
 /** Run for so many seconds of the controller's time. */
@@ -396,6 +408,15 @@ export interface SeenRobot {
   readonly base: Pose;
 }
 
+/** A shape in its owner's frame. `size`: x, y, z of a box; radius and length; radius; scale of a mesh. */
+export interface SeenShape {
+  readonly kind: "box" | "cylinder" | "capsule" | "sphere" | "half_space" | "mesh" | "hull";
+  readonly size: readonly number[];
+  readonly pose: Pose;
+  readonly mesh: string;
+  readonly corners: readonly (readonly [number, number, number])[];
+}
+
 /** Target of a move of a program: the TCP, in the world. */
 export interface SeenTarget {
   readonly group: string;
@@ -405,12 +426,12 @@ export interface SeenTarget {
   readonly pose: Pose;
 }
 
-/** A mesh of the cell, by its name on this server. */
+/** An object or zone of the cell in the world, or a tool at the flange of a robot. */
 export interface SeenThing {
   readonly name: string;
-  readonly mesh: string;
-  readonly scale: number;
-  readonly pose: Pose;
+  readonly role: "object" | "tool" | "keep-in" | "keep-out";
+  readonly robot: string;
+  readonly shapes: readonly SeenShape[];
 }
 
 /** A value in RAPID's spelling. */
@@ -569,4 +590,4 @@ export interface UploadedTrajectory {
 
 export type ToPage = AllSignals | Connections | Conversation | Covered | Debugging | Dialogs | EditorPlace | FrameValues | LoadedPrograms | Log | PageReply | PanelState | Playback | Pointers | Positions | Scene | Screen | SignalValues | Targets | UploadedTrajectory;
 
-export type Request = AnswerQuestion | Assign | Copy | CountLines | DebugCommand | Evaluate | InjectFault | Jog | JogTo | Listen | OpenInEditor | PendantAction | Play | ReadCurves | ReadOrigin | ReadSource | RemoveBreakpoint | RemoveTrajectory | ResetConnection | RunFor | RunTo | RunTrajectory | Seek | SelectFrame | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors | UploadTrajectory;
+export type Request = AnswerQuestion | Assign | Copy | CountLines | DebugCommand | Evaluate | InjectFault | Jog | JogBy | JogTo | Listen | OpenInEditor | PendantAction | Play | ReadCurves | ReadOrigin | ReadSource | RemoveBreakpoint | RemoveTrajectory | ResetConnection | RunFor | RunTo | RunTrajectory | Seek | SelectFrame | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors | UploadTrajectory;

@@ -9,7 +9,7 @@ export interface View {
   readonly link: Link;
   /** The scene with the robots; null without WebGL. */
   readonly stage: Stage | null;
-  /** Send a request and show the reason of a refusal; resolves to whether it was done. */
+  /** Send a request and show the reason of a rejection; resolves to whether it was done. */
   order(request: Request): Promise<boolean>;
   /** Show a short message. */
   notice(text: string, kind?: "plain" | "fault"): void;
@@ -19,6 +19,10 @@ export interface View {
 export interface Panel {
   readonly id: string;
   readonly title: string;
+  /** Another title for a kind of subject. */
+  titleOf?(kind: Scene["kind"]): string | undefined;
+  /** True if no control sends a request: then all of them work without a connection. */
+  readonly local?: boolean;
   readonly element: HTMLElement;
   /** Subjects that have this panel; absent: all. */
   readonly kinds?: readonly Scene["kind"][];
@@ -36,7 +40,7 @@ export class RequestState<T> {
   private underWay = 0;
   private reported: T | undefined;
 
-  /** `show` receives whether a refusal is the reason: then it replaces typed text too. */
+  /** `show` receives whether a rejection is the reason: then it replaces typed text too. */
   constructor(private readonly view: View, private readonly show: (value: T, refused: boolean) => void) {}
 
   /** Take the server's value. */
@@ -45,7 +49,7 @@ export class RequestState<T> {
     if (!this.underWay) this.show(value, false);
   }
 
-  /** Send a request; after a refusal show the server's value again. */
+  /** Send a request; after a rejection show the server's value again. */
   async ask(request: Request): Promise<void> {
     this.underWay += 1;
     const done = await this.view.order(request);

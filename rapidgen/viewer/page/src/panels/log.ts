@@ -1,6 +1,6 @@
 // The event log with ABB's numbers.
 
-import { h } from "../dom";
+import { h, say } from "../dom";
 import type { LogEntry } from "../messages";
 import type { MakePanel } from "../panel";
 
@@ -9,8 +9,9 @@ const KEPT = 1000;
 export const logPanel: MakePanel = ({ link }) => {
   const list = h("ol", { class: "log" });
   const words = h("input", { type: "search", placeholder: "Number or text", "aria-label": "Filter the log" });
-  const least = h("select", { "aria-label": "Least weight" },
-    h("option", { value: 0 }, "All"), h("option", { value: 1 }, "Warnings"), h("option", { value: 2 }, "Errors"));
+  const least = h("select", { "aria-label": "Minimum severity" },
+    h("option", { value: 0 }, "All events"), h("option", { value: 1 }, "Warnings"), h("option", { value: 2 }, "Errors"));
+  const none = h("p", { class: "soft" }, "No events.");
   const known = new Map<number, { entry: LogEntry; element: HTMLElement }>();
 
   const fits = (entry: LogEntry): boolean => {
@@ -18,8 +19,13 @@ export const logPanel: MakePanel = ({ link }) => {
     const text = `${entry.code} ${entry.title} ${entry.texts.join(" ")} ${entry.task}`.toLowerCase();
     return weight >= Number(least.value) && text.includes(words.value.trim().toLowerCase());
   };
+  const tell = (): void => {
+    none.hidden = [...known.values()].some(({ element }) => !element.hidden);
+    say(none, known.size ? "No matching events." : "No events.");
+  };
   const filter = (): void => {
     for (const { entry, element } of known.values()) element.hidden = !fits(entry);
+    tell();
   };
   words.addEventListener("input", filter);
   least.addEventListener("change", filter);
@@ -46,10 +52,11 @@ export const logPanel: MakePanel = ({ link }) => {
       known.get(oldest)?.element.remove();
       known.delete(oldest);
     }
+    tell();
   });
   return {
-    id: "log", title: "Log",
-    element: h("div", { class: "panel" }, h("div", { class: "row filter" }, words, least), list),
+    id: "log", title: "Log", local: true,
+    element: h("div", { class: "panel" }, h("div", { class: "row filter" }, words, least), none, list),
   };
 };
 

@@ -1,4 +1,4 @@
-// The pendant: key, motors, stop and start, speed, the operator window with its dialogs.
+// The pendant: emergency stop, mode, motors, stop and start, speed, the operator window with its dialogs.
 
 import { RequestState, type MakePanel } from "../panel";
 import { Choice, h, say, section, Rows } from "../dom";
@@ -9,20 +9,14 @@ const PACES = [0.1, 0.25, 0.5, 1, 2, 5, 10, 50, 100];
 
 export const pendantPanel: MakePanel = (view) => {
   const { link, order } = view;
-  let status: PanelState | null = null;
   const act = (action: PendantAction["action"]) => () => order({ do: "act", action });
   const button = (text: string, action: PendantAction["action"], kind = ""): HTMLButtonElement =>
     h("button", { type: "button", class: kind, onclick: act(action) }, text);
 
-  const stop = h("button", {
-    type: "button", class: "emergency",
-    onclick: () => order({ do: "act", action: status?.e_stop ? "reset-e-stop" : "e-stop" }),
-  }, "Emergency stop");
-  // The button can be released before the emergency stop is reset, by a signal for example.
-  const release = button("Release button", "release-e-stop");
-  release.hidden = true;
+  const stop = button("Emergency stop", "e-stop", "emergency");
+  const reset = button("Reset emergency stop", "reset-e-stop");
   const mode = new Choice<NonNullable<PanelState["mode"]>>("Mode",
-    [["auto", "Auto"], ["manual_reduced", "Manual"], ["manual_full", "Full speed"]],
+    [["auto", "Auto"], ["manual_reduced", "Manual"], ["manual_full", "Manual full speed"]],
     (value) => order({ do: "mode", mode: value }));
   const motors = new Choice<"motors-on" | "motors-off">("Motors",
     [["motors-on", "On"], ["motors-off", "Off"]], (action) => order({ do: "act", action }));
@@ -50,14 +44,14 @@ export const pendantPanel: MakePanel = (view) => {
     onclick: () => order({ do: "drive", how: held ? "resume" : "pause", task: "" }) }, "Pause");
   const length = h("select", { "aria-label": "Length of a time step" },
     ...STEPS.map(([value, text]) => h("option", { value }, text)));
-  const step = h("button", { type: "button", disabled: true, title: "Go on for so long, then pause",
+  const step = h("button", { type: "button", disabled: true, title: "Run for this time, then pause",
     onclick: () => order({ do: "run-for", seconds: Number(length.value) }) }, "Time step");
   link.on("debugging", ({ halt }) => {
     held = halt !== null;
-    say(pause, held ? "Go on" : "Pause");
+    say(pause, held ? "Resume" : "Pause");
     step.disabled = !held;
   });
-  const pace = h("select", { id: "pace", "aria-label": "Pace of time" },
+  const pace = h("select", { id: "pace", "aria-label": "Simulation speed" },
     ...PACES.map((value) => h("option", { value, selected: value === 1 }, `${value} ×`)));
   const paces = new RequestState<number>(view, (now) => {
     pace.value = String(PACES.find((value) => value >= now) ?? 100);
@@ -72,10 +66,9 @@ export const pendantPanel: MakePanel = (view) => {
   }));
 
   link.on("panel", (now) => {
-    status = now;
-    stop.classList.toggle("pressed", now.e_stop === true);
-    say(stop, now.e_stop ? "Reset emergency stop" : "Emergency stop");
-    release.hidden = now.e_stop_pressed !== true;
+    stop.disabled = now.e_stop === true;
+    reset.disabled = now.e_stop !== true;
+    reset.classList.toggle("primary", now.e_stop === true);
     mode.show(now.mode);
     motors.show(now.motors_on === null ? null : now.motors_on ? "motors-on" : "motors-off");
     speeds.report(now.override ?? 1);
@@ -90,13 +83,13 @@ export const pendantPanel: MakePanel = (view) => {
 
   const element = h("div", { class: "panel" },
     dialogs,
-    h("div", { class: "commands" }, stop, release),
+    h("div", { class: "commands stops" }, stop, reset),
     section("Mode", mode.element),
     section("Motors", motors.element),
     section("Program", h("div", { class: "row" },
       button("Start", "start", "primary"), button("Stop", "stop"), button("PP to main", "pp-to-main"))),
     section("Speed", h("label", { class: "row", for: "speed" }, speed, speedText)),
-    section("Time", h("div", { class: "row" }, pause, pace, step, length)),
+    section("Simulation time", h("div", { class: "row" }, pause, pace, step, length)),
     section("Operator window", rows),
     section("Tasks", h("table", {}, tasks)),
   );

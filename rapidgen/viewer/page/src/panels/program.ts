@@ -34,7 +34,7 @@ class PointRow implements Row<SeenBreakpoint> {
     const field = (hint: string): HTMLInputElement =>
       h("input", { type: "text", placeholder: hint, "aria-label": `${hint} of line ${line}`, onchange: change });
     this.state = new RequestState(view, (point, refused) => this.write(point, refused));
-    this.fields = { condition: field("Condition"), hits: field("Pass"), log: field("Log, do not pause") };
+    this.fields = { condition: field("Condition"), hits: field("Hit count"), log: field("Log message") };
     this.element = h("li", {},
       h("div", { class: "row" }, h("b", {}, `${module}, line ${line}`), this.count, h("span", { class: "space" }),
         h("button", { type: "button", class: "quiet", "aria-label": `Remove the breakpoint of line ${line}`,
@@ -43,7 +43,7 @@ class PointRow implements Row<SeenBreakpoint> {
   }
 
   show(point: SeenBreakpoint): void {
-    say(this.count, `reached ${point.count} ×`);
+    say(this.count, `hit ${point.count} ×`);
     say(this.doubt, point.doubt);
     this.doubt.hidden = !point.doubt;
     this.state.report(point);
@@ -98,12 +98,12 @@ class ProgramPanel {
     h("button", { type: "button", "data-step": how, title: { over: "F10", in: "F11", out: "Shift F11" }[how],
       onclick: () => this.drive(how) }, { over: "Step over", in: "Step in", out: "Step out" }[how]));
   private readonly cursor = h("button", { type: "button", onclick: () => this.view.order(
-    { do: "run-to", task: this.task, module: this.module, line: this.editor.line }) }, "To cursor");
+    { do: "run-to", task: this.task, module: this.module, line: this.editor.line }) }, "Run to cursor");
   private readonly errors = h("select", { "aria-label": "Pause at errors", onchange: () => void this.pauses.ask(
     { do: "errors", errors: this.errors.value as Debugging["errors"] }) },
-    h("option", { value: "never" }, "Errors do not pause"),
-    h("option", { value: "unhandled" }, "Pause at errors that stop a task"),
-    h("option", { value: "all" }, "Pause at handled errors, too"));
+    h("option", { value: "never" }, "Do not pause at errors"),
+    h("option", { value: "unhandled" }, "Pause at unhandled errors"),
+    h("option", { value: "all" }, "Pause at all errors"));
   private readonly counts = h("input", { type: "checkbox", id: "counts",
     onchange: () => void this.view.order({ do: "cover", on: this.counts.checked }).then((done) => {
       if (!done) this.counts.checked = !this.counts.checked;
@@ -147,10 +147,10 @@ class ProgramPanel {
       live(section("Values", this.variables)),
       section("Watch list", this.watch, live(add)),
       live(section("Breakpoints", this.points.element, h("div", { class: "row" }, this.errors),
-        h("label", { class: "row" }, this.counts, "Count how often lines are reached"))),
+        h("label", { class: "row" }, this.counts, "Count executions of lines"))),
       live(section("Log points", this.output)),
-      live(h("p", { class: "soft" }, "Everything pauses, time and robots included. A step does not enter traps, event routines and " +
-        "modules with NOSTEPIN: a breakpoint in one is noticed.")));
+      live(h("p", { class: "soft" }, "A pause stops time and robots. Steps do not enter traps, event routines and NOSTEPIN modules; " +
+        "breakpoints work there.")));
     // For any focus: an updated value removes it.
     document.addEventListener("keydown", (event) => {
       if (this.visible) this.key(event);
@@ -186,7 +186,6 @@ class ProgramPanel {
 
   shown(visible: boolean): void {
     this.visible = visible;
-    document.body.classList.toggle("programs", visible);
     if (visible) this.point(true);
   }
 
@@ -299,7 +298,7 @@ class ProgramPanel {
   }
 
   private toggle(line: number): void {
-    if (this.template) return this.view.notice("Breakpoints are set in modules, not in templates", "fault");
+    if (this.template) return this.view.notice("Set breakpoints in modules, not in templates.", "fault");
     const there = this.debugging?.breakpoints.find((point) => point.line === line && point.module === this.module);
     if (there) this.view.order({ do: "unbreak", number: there.number });
     else this.view.order({ do: "break", number: 0, task: "", module: this.module, line, condition: "", hits: "", log: "" });
@@ -313,7 +312,7 @@ class ProgramPanel {
     const before = this.debugging;
     this.debugging = debugging;
     const halt = debugging.halt;
-    say(this.go, halt ? "Go on" : "Pause");
+    say(this.go, halt ? "Resume" : "Pause");
     for (const button of this.steps) button.disabled = !halt;
     this.halt.hidden = !halt;
     if (halt) {

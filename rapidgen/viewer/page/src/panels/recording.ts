@@ -25,9 +25,9 @@ class RecordingPanel {
   private data: PlotData | null = null;
   private robots: readonly SeenRobot[] = [];
 
-  private readonly slider = h("input", { type: "range", class: "scrub", step: 0.004, "aria-label": "Moment",
+  private readonly slider = h("input", { type: "range", class: "scrub", step: 0.004, "aria-label": "Time",
     oninput: () => this.seek(Number(this.slider.value)) });
-  private readonly moment = h("input", { type: "number", step: 0.004, "aria-label": "Moment in seconds",
+  private readonly moment = h("input", { type: "number", step: 0.004, "aria-label": "Time in seconds",
     onchange: () => this.seek(Number(this.moment.value)) });
   private readonly length = h("span", { class: "soft" });
   private readonly play = h("button", { type: "button", class: "primary", onclick: () => this.run(!this.playback?.rate) }, "Play");
@@ -35,9 +35,9 @@ class RecordingPanel {
     ...RATES.map((value) => h("option", { value, selected: value === 1 }, `${value} ×`)));
   private readonly what = h("select", { "aria-label": "Curve", onchange: () => void this.plot() });
   private readonly span = h("select", { "aria-label": "Span", onchange: () => void this.plot() },
-    h("option", { value: 10 }, "10 s around"), h("option", { value: 60 }, "a minute around"),
-    h("option", { value: 0, selected: true }, "all"));
-  private readonly video = h("button", { type: "button", onclick: () => this.film() }, "Film the robots");
+    h("option", { value: 10 }, "10 s"), h("option", { value: 60 }, "1 min"),
+    h("option", { value: 0, selected: true }, "All"));
+  private readonly video = h("button", { type: "button", onclick: () => this.film() }, "Record video");
   private filming: MediaRecorder | null = null;
   private filmed = 0;
   private readonly curves = h("div", { class: "curves" });
@@ -45,7 +45,7 @@ class RecordingPanel {
 
   constructor(private readonly view: View) {
     const step = (by: number, text: string): HTMLElement => h("button", { type: "button",
-      "aria-label": `${Math.abs(by)} s ${by < 0 ? "back" : "on"}`,
+      "aria-label": `${Math.abs(by)} s ${by < 0 ? "back" : "forward"}`,
       onclick: () => this.seek((this.playback?.time ?? 0) + by) }, text);
     this.element = h("div", { class: "panel recording" }, this.cut,
       this.slider,
@@ -53,8 +53,8 @@ class RecordingPanel {
         step(0.1, "+0.1 s"), step(1, "+1 s")),
       section("Curves", h("div", { class: "row" }, this.what, this.span,
         h("button", { type: "button", onclick: () => void this.plot() }, "Draw"),
-        h("button", { type: "button", onclick: () => this.csv() }, "CSV"),
-        h("button", { type: "button", onclick: () => this.png() }, "PNG of the robots"), this.video), this.curves),
+        h("button", { type: "button", onclick: () => this.csv() }, "Save CSV"),
+        h("button", { type: "button", onclick: () => this.png() }, "Save image"), this.video), this.curves),
       h("p", { class: "soft" }, "Click in a curve to go there. `rapidgen view FILE --csv OUT.csv` writes every sample."));
     view.link.on("scene", (scene) => {
       this.robots = scene.groups;
@@ -72,7 +72,6 @@ class RecordingPanel {
   }
 
   shown(visible: boolean): void {
-    document.body.classList.toggle("recordings", visible);
     this.visible = visible;
     if (visible && !this.drawn) void this.plot();
   }
@@ -87,7 +86,7 @@ class RecordingPanel {
       if (this.wanted === null && !typed) input.value = playback.time.toFixed(3);
     }
     say(this.length, `of ${playback.end.toFixed(1)} s`);
-    say(this.play, playback.rate ? "Stop" : "Play");
+    say(this.play, playback.rate ? "Pause" : "Play");
     this.cut.hidden = !playback.fault;
     say(this.cut, playback.fault);
     if (this.visible && !this.drawn) void this.plot();
@@ -160,7 +159,7 @@ class RecordingPanel {
   private film(): void {
     if (this.filming) return this.filming.stop();
     const stage = this.view.stage;
-    if (!stage) return this.view.notice("There is no picture without WebGL", "fault");
+    if (!stage) return this.view.notice("Without WebGL there is no video.", "fault");
     const pieces: Blob[] = [];
     const film = new MediaRecorder(stage.element.captureStream(30), { mimeType: "video/webm" });
     this.filmed = 0;
@@ -170,11 +169,11 @@ class RecordingPanel {
     };
     film.onstop = () => {
       this.filming = null;
-      say(this.video, "Film the robots");
+      say(this.video, "Record video");
       save(new Blob(pieces, { type: "video/webm" }), "robots.webm");
     };
     this.filming = film;
-    say(this.video, "End the film");
+    say(this.video, "Stop recording");
     // In pieces, as they are encoded: the film contains the pieces so far.
     film.start(250);
     stage.draw();

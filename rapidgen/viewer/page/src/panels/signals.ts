@@ -8,7 +8,7 @@ export const signalsPanel: MakePanel = (view) => {
   const rows = new Map<string, SignalRow>();
   const words = h("input", { type: "search", placeholder: "Name", "aria-label": "Search signals" });
   const body = h("tbody", {});
-  const none = h("p", { class: "soft", hidden: true }, "No signal is called so.");
+  const none = h("p", { class: "soft", hidden: true }, "No matching signals.");
   let commands = false;
 
   const filter = (): void => {
@@ -19,6 +19,7 @@ export const signalsPanel: MakePanel = (view) => {
       found += Number(!row.element.hidden);
     }
     none.hidden = found > 0;
+    say(none, rows.size ? "No matching signals." : "This controller has no signals.");
   };
   words.addEventListener("input", filter);
 

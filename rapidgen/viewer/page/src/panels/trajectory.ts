@@ -5,26 +5,25 @@ import type { UploadedTrajectory, TrajectoryFinding } from "../messages";
 import type { MakePanel } from "../panel";
 
 const STATES: Record<UploadedTrajectory["state"], string> = {
-  refused: "It cannot be executed.", checked: "It can be executed.", running: "It is being executed.",
-  done: "It was executed.", failed: "It was not executed to its end.",
+  refused: "Rejected.", checked: "Ready to execute.", running: "Executing …", done: "Executed.", failed: "Not completed.",
 };
 
 export const trajectoryPanel: MakePanel = ({ link, stage, order, notice }) => {
   const robot = h("select", { "aria-label": "Robot" });
   const chosen = h("input", { type: "file", accept: ".csv,.json", "aria-label": "Trajectory file",
     onchange: () => void take(chosen.files?.[0]) });
-  const place = h("div", { class: "drop" }, h("p", {}, "Drop a CSV (time,joint names) or JSON here, or choose one:"), chosen);
+  const place = h("div", { class: "drop" }, h("p", {}, "Drop a CSV (time,joint names) or JSON file here, or choose one:"), chosen);
   const about = h("p", {});
   const state = h("p", { class: "soft", role: "status" });
   const run = h("button", { type: "button", class: "primary", onclick: () => order({ do: "run" }) }, "Execute");
-  const forget = h("button", { type: "button", onclick: () => order({ do: "forget" }) }, "Take away");
+  const forget = h("button", { type: "button", onclick: () => order({ do: "forget" }) }, "Remove");
   const findings = h("ol", { class: "log" });
   const result = h("section", { hidden: true }, h("h2", {}, "Trajectory"), about, state,
     h("div", { class: "row" }, run, forget), findings);
 
   const take = async (file: File | undefined): Promise<void> => {
     if (!file) return;
-    if (file.size > 900_000) return notice("Files of up to 900 kB can be dropped.", "fault");
+    if (file.size > 900_000) return notice("The file is larger than 900 kB.", "fault");
     order({ do: "drop", group: robot.value, file: file.name, text: await file.text() });
     chosen.value = "";
   };

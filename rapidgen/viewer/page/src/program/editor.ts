@@ -133,7 +133,7 @@ function signs(actions: EditorActions): Extension {
         const hits = view.state.field(marksOf).covered[lineOf(view, block)];
         if (hits === undefined) return null;
         return new Sign(hits ? String(hits) : "–", hits ? "cm-reached" : "cm-missed",
-          hits ? `Reached ${hits} times` : "Not reached");
+          hits ? `Executed ${hits} times` : "Not executed");
       },
       lineMarkerChange: changed,
     }),

@@ -14,6 +14,8 @@ export class Robot {
   readonly root = new THREE.Group();
   readonly tcp = new THREE.Group();
   readonly object = new THREE.Group();
+  /** The link that carries tools. */
+  readonly flange: THREE.Object3D;
   readonly trail: Trail;
   readonly ready: Promise<boolean>;
   private readonly body: Body;
@@ -35,8 +37,8 @@ export class Robot {
     this.tcp.add(axes(0.09, palette));
     this.object.add(axes(0.16, palette));
     this.object.visible = false;
-    const flange = this.body.urdf.links[group.flange] ?? this.body.urdf;
-    flange.add(this.tcp);
+    this.flange = this.body.urdf.links[group.flange] ?? this.body.urdf;
+    this.flange.add(this.tcp);
     place(this.root, group.base);
     this.root.add(this.body.urdf, this.ghost.urdf, this.trail.line, this.object);
   }

@@ -2,17 +2,24 @@
 
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import type { Scene, Positions, SeenTarget } from "../messages";
+import type { Scene, Positions, SeenTarget, SeenThing } from "../messages";
 import { Grip, type GripMode, type Wanted } from "./grip";
 import { Labels, TargetMarks, drawnWay } from "./marks";
 import { Meshes } from "./meshes";
 import { palette } from "./palette";
-import { axes, place, Robot } from "./robot";
+import { axes, Robot } from "./robot";
+import { drawnThing } from "./things";
 
 export type ViewName = "fit" | "front" | "side" | "top";
 const FROM: Record<ViewName, [number, number, number]> = {
   fit: [1.15, -1.35, 0.85], front: [1, 0, 0.001], side: [0, -1, 0.001], top: [0, -0.001, 1],
 };
+
+/** Parts of the scene that can be hidden, and whether they are shown at first. */
+export const LAYERS = {
+  targets: true, frames: true, ghost: true, trail: true, path: true, objects: true, tools: true, zones: true, shapes: false, distances: true,
+};
+export type LayerName = keyof typeof LAYERS;
 
 export class Stage {
   readonly element: HTMLCanvasElement;
@@ -27,10 +34,13 @@ export class Stage {
   private readonly floor = new THREE.Group();
   private readonly way = new THREE.Group();
   readonly things = new THREE.Group();
+  private readonly zones = new THREE.Group();
+  /** Tools with shapes, each at the flange of its robot. */
+  private tools: THREE.Object3D[] = [];
   readonly labels = new Labels();
   private targets: readonly SeenTarget[] = [];
   private marks: TargetMarks[] = [];
-  private readonly layers = { targets: true, frames: true, ghost: true };
+  private readonly layers = { ...LAYERS };
   private readonly grip: Grip;
   /** Executes a drag of the handle. */
   onwanted: Wanted = () => Promise.resolve();
@@ -48,7 +58,7 @@ export class Stage {
     this.renderer = new THREE.WebGLRenderer({ antialias: !soft, powerPreference: "low-power" });
     this.renderer.setPixelRatio(soft ? 1 : Math.min(devicePixelRatio, 2));
     this.element = this.renderer.domElement;
-    this.element.setAttribute("aria-label", "The robots in space");
+    this.element.setAttribute("aria-label", "3D view of the robots");
     this.element.tabIndex = 0;
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.element);
@@ -59,7 +69,7 @@ export class Stage {
       (...wanted) => this.onwanted(...wanted), () => this.draw(), (free) => { this.controls.enabled = free; });
     const sun = new THREE.DirectionalLight("#ffffff", 1.9);
     sun.position.set(2, -3, 4);
-    this.space.add(new THREE.HemisphereLight("#ffffff", "#8a9096", 1.6), sun, this.floor, this.way, this.things);
+    this.space.add(new THREE.HemisphereLight("#ffffff", "#8a9096", 1.6), sun, this.floor, this.way, this.things, this.zones);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint());
     this.paint();
   }
@@ -98,22 +108,7 @@ export class Stage {
       this.robots.set(group.name, robot);
       this.space.add(robot.root);
     }
-    this.things.clear();
-    const coming = scene.things.map(async (thing) => {
-      const mesh = await this.meshes.load(thing.mesh);
-      if (!mesh) return false;
-      const stand = new THREE.Group();
-      place(stand, thing.pose);
-      mesh.scale.multiplyScalar(thing.scale);
-      mesh.traverse((part) => {
-        const skin = part instanceof THREE.Mesh ? (part.material as THREE.MeshLambertMaterial) : null;
-        if (skin?.name === "body") skin.color.set("#9aa5ad");
-      });
-      stand.name = thing.name;
-      stand.add(mesh);
-      this.things.add(stand);
-      return true;
-    });
+    const coming = this.furnish(scene.things);
     this.look("fit");
     // Meshes arrive later: the view stays if the user has turned it by then.
     this.touched = false;
@@ -121,6 +116,27 @@ export class Stage {
       if (came.includes(true) && !this.touched) this.look("fit");
       else this.draw();
     });
+  }
+
+  /** Replace objects, zones and tools; resolves each to whether a mesh has arrived. */
+  private furnish(things: readonly SeenThing[]): Promise<boolean>[] {
+    this.things.clear();
+    this.zones.clear();
+    for (const tool of this.tools) tool.removeFromParent();
+    this.tools = [];
+    const coming: Promise<boolean>[] = [];
+    for (const thing of things) {
+      const drawn = drawnThing(thing, this.meshes, this.palette);
+      coming.push(drawn.ready);
+      if (thing.role === "tool") {
+        this.robots.get(thing.robot)?.flange.add(drawn.root);
+        this.tools.push(drawn.root);
+      } else {
+        (thing.role === "object" ? this.things : this.zones).add(drawn.root);
+      }
+    }
+    this.showLayers();
+    return coming;
   }
 
   show(state: Positions): void {
@@ -136,7 +152,10 @@ export class Stage {
   /** Look at everything from one of the named sides. */
   look(name: ViewName): void {
     const box = new THREE.Box3();
-    for (const part of [...[...this.robots.values()].map((robot) => robot.root), this.things]) box.expandByObject(part);
+    for (const part of [...[...this.robots.values()].map((robot) => robot.root), ...this.things.children]) {
+      // The ground of a cell has no end.
+      if (!part.userData["endless"]) box.expandByObject(part);
+    }
     if (box.isEmpty()) box.set(new THREE.Vector3(-0.5, -0.5, 0), new THREE.Vector3(0.5, 0.5, 1));
     const ball = box.getBoundingSphere(new THREE.Sphere());
     const narrow = Math.min(1, this.camera.aspect);
@@ -191,18 +210,28 @@ export class Stage {
       this.marks.push(marks);
     }
     this.labels.set(this.marks.flatMap((marks) => marks.names()));
-    this.layer("targets", this.layers.targets);
+    this.showLayers();
   }
 
   /** Show or hide a part of the scene. */
-  layer(name: keyof typeof this.layers, shown: boolean): void {
+  layer(name: LayerName, shown: boolean): void {
     this.layers[name] = shown;
-    for (const marks of this.marks) marks.root.visible = this.layers.targets;
-    this.labels.element.hidden = !this.layers.targets;
+    this.showLayers();
+  }
+
+  private showLayers(): void {
+    const { layers } = this;
+    for (const marks of this.marks) marks.root.visible = layers.targets;
+    this.labels.element.hidden = !layers.targets;
+    this.things.visible = layers.objects;
+    this.zones.visible = layers.zones;
+    this.way.visible = layers.path;
+    for (const tool of this.tools) tool.visible = layers.tools;
     for (const robot of this.robots.values()) {
-      robot.framed = this.layers.frames;
-      robot.tcp.visible = this.layers.frames;
-      robot.ghosted = this.layers.ghost;
+      robot.framed = layers.frames;
+      robot.tcp.visible = layers.frames;
+      robot.ghosted = layers.ghost;
+      robot.trail.line.visible = layers.trail;
       if (robot.state) robot.show(robot.state);
     }
     this.draw();
