@@ -8,7 +8,7 @@ import pytest
 from tests.viewer.bench import STATE, until
 
 pytestmark = pytest.mark.browser
-TABS = ("Pendant", "Program", "Axes", "Signals", "Log", "Path", "Network")
+TABS = ("Pendant", "Program", "Jog", "Signals", "Log", "Path", "Network")
 
 # Of each visible text: its contrast with its background, and the required one.
 CONTRASTS = """() => {
@@ -115,7 +115,7 @@ def test_nothing_is_cut_off_at_1280_by_720(irb120, open_page):
     for tab in TABS:
         page.get_by_role("tab", name=tab).click()
         wide = page.evaluate(
-            "[...document.querySelectorAll('header, main, aside, .panel, .views')]"
+            "[...document.querySelectorAll('header, main, aside, .view, .toolbar, .status')]"
             ".filter(e => e.checkVisibility() && e.scrollWidth > e.clientWidth + 1)"
             ".map(e => e.className || e.tagName)"
         )
@@ -143,6 +143,9 @@ def test_the_emergency_stop_works_by_the_keyboard(irb120, open_page):
     page.get_by_role("button", name="Emergency stop").first.focus()
     page.keyboard.press("Enter")
     until(page, "document.querySelector('header').textContent", lambda t: "Emergency stop" in t)
+    # The same key again resets nothing.
+    page.keyboard.press("Enter")
+    page.get_by_role("button", name="Reset emergency stop").focus()
     page.keyboard.press("Enter")
     until(page, "document.querySelector('header').textContent", lambda t: "Motors off" in t)
     page.get_by_role("button", name="On", exact=True).focus()

@@ -45,14 +45,14 @@ def test_two_pages_see_one_emergency_stop(irb120, open_page):
 def test_refusal_is_shown_and_axis_is_jogged(irb120, open_page):
     page = open_page(irb120["view"])
     until(page, STATE)
-    page.get_by_role("tab", name="Axes").click()
+    page.get_by_role("tab", name="Jog").click()
     slider = page.get_by_role("slider").first
     slider.fill("0.5")
-    until(page, "document.querySelector('.notices').innerText", lambda t: "stop it first" in t)
+    until(page, "document.querySelector('.message').innerText", lambda t: "stop it first" in t)
     page.get_by_role("tab", name="Pendant").click()
     page.get_by_role("button", name="Stop", exact=True).click()
     until(page, "document.querySelector('header').innerText", lambda t: "Stopped" in t)
-    page.get_by_role("tab", name="Axes").click()
+    page.get_by_role("tab", name="Jog").click()
     slider.fill("0.5")
     until(page, f"{STATE}.groups[0].axes[0]", lambda value: value == 0.5)
     slider.fill("0")
@@ -67,11 +67,11 @@ def test_refused_jog_is_not_executed_by_a_later_key(irb120, open_page):
     page = open_page(irb120["view"])
     axes = f"{STATE}.groups[0].axes.map((value) => value * 180 / Math.PI)"
     until(page, STATE)
-    page.get_by_role("tab", name="Axes").click()
+    page.get_by_role("tab", name="Jog").click()
     slider = page.get_by_role("slider").first
     figure = page.get_by_label("joint_1 in °")
     place = page.get_by_label("TCP x of rob1 in mm")
-    refusals = "document.querySelectorAll('.notice.fault').length"
+    refusals = "Number(document.querySelector('.message').dataset.count)"
     before = page.evaluate(axes)
     values = slider.input_value(), figure.input_value(), place.input_value()
     for count in range(1, 6):
@@ -91,7 +91,7 @@ def test_refused_jog_is_not_executed_by_a_later_key(irb120, open_page):
     page.get_by_role("tab", name="Pendant").click()
     page.get_by_role("button", name="Stop", exact=True).click()
     until(page, "document.querySelector('header').innerText", lambda t: "Stopped" in t)
-    page.get_by_role("tab", name="Axes").click()
+    page.get_by_role("tab", name="Jog").click()
     at = before[0]
     for name, presses, control in (("1", 1, slider), ("5", 2, slider), ("0.1", 3, figure)):
         page.get_by_role("button", name=name, exact=True).click()
@@ -163,16 +163,16 @@ def test_a_simulator_that_comes_back_is_found_again(open_page, monkeypatch):
         until(page, STATE)
         process.send_signal(signal.SIGKILL)
         process.wait()
-        until(page, "document.querySelector('.banner').innerText", lambda t: "lost" in t)
+        until(page, "document.body.dataset.state", lambda now: now == "offline")
     port = ready["view"].split(":")[2].split("/")[0]
     open_page.faults.clear()
     with simulator("irb120", "--view-port", port, environment=token):
-        until(page, "document.querySelector('.banner').hidden")
+        until(page, "document.body.dataset.state === 'running'")
         until(page, STATE)
         open_page.faults.clear()
     other = {"RAPIDGEN_VIEW_TOKEN": "fedcba9876543210-test"}
     with simulator("irb120", "--view-port", port, environment=other):
-        until(page, "document.querySelector('.banner').innerText", lambda t: "no access" in t)
+        until(page, "document.body.dataset.state", lambda now: now == "refused")
         page.close()
         open_page.faults.clear()
 

@@ -106,7 +106,7 @@ def test_socket_data_is_listed_and_connection_silenced(irb120, open_page):
     page = open_page(irb120["view"])
     until(page, STATE)
     page.get_by_role("tab", name="Network").click()
-    page.get_by_label("Listen").check()
+    page.get_by_label("Capture").check()
     address = "127.0.0.1:{motion},{state},{control}".format(**irb120["ports"]["rob1"])
     with Robot("irb120", address=address) as robot:
         until(page, LISTED, lambda text: "STATUS" in text and "JOINT_POSITION" in text)
@@ -120,8 +120,8 @@ def test_socket_data_is_listed_and_connection_silenced(irb120, open_page):
             "[...document.querySelectorAll('.sockets select')].map(s => s.value)",
             lambda values: "silent" in values,
         )
-        page.get_by_label("Listen").uncheck()
-        row.get_by_role("button", name="Cut").click()
+        page.get_by_label("Capture").uncheck()
+        row.get_by_role("button", name="Disconnect").click()
         until(
             page,
             "[...document.querySelectorAll('.sockets select')].map(s => s.value)",
@@ -138,7 +138,7 @@ def test_a_box_shows_what_was_asked_until_that_is_answered(irb120, open_page):
     page = open_page(irb120["view"], before=HELD)
     until(page, STATE)
     page.get_by_role("tab", name="Network").click()
-    box = page.get_by_label("Listen")
+    box = page.get_by_label("Capture")
 
     def push(**message):
         page.evaluate("message => push(message)", message)

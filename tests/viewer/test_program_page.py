@@ -53,7 +53,7 @@ def page(address, open_page):
         points.first.click()
         until(page, f"{SEEN}.breakpoints.length", lambda count, left=left: count < left)
     if page.evaluate(f"{SEEN}.halted") is not None:
-        page.locator("#panel-program").get_by_role("button", name="Go on").click()
+        page.locator("#panel-program").get_by_role("button", name="Resume").click()
     until(page, f"{SEEN}.halted", lambda at: at is None)
     page.close()
 
@@ -85,7 +85,7 @@ def test_the_pointer_does_not_pass_a_breakpoint(page):
     page.wait_for_timeout(700)
     assert page.evaluate(f"{SEEN}.program") == 17
     assert page.evaluate("rapidgen.state().time") == time
-    page.get_by_role("button", name="Go on").click()
+    page.get_by_role("button", name="Resume").click()
     until(
         page,
         f"({HALTED}) && document.querySelector('[aria-label=\"Value of n\"]').value",
@@ -153,7 +153,7 @@ def test_a_condition_a_hover_and_a_log_point(page):
     condition = page.get_by_placeholder("Condition")
     condition.fill("i MOD 3 = 0")
     condition.press("Enter")
-    page.get_by_role("button", name="Go on").click()
+    page.get_by_role("button", name="Resume").click()
     until(
         page,
         f"({HALTED}) && document.querySelector('[aria-label=\"Value of i\"]').value",
@@ -161,10 +161,10 @@ def test_a_condition_a_hover_and_a_log_point(page):
     )
     page.locator(".cm-content").get_by_text("total := total + n").hover(position={"x": 45, "y": 8})
     page.locator(".cm-value").wait_for()
-    tell = page.get_by_placeholder("Log, do not pause")
+    tell = page.get_by_placeholder("Log message")
     tell.fill("i is {i}")
     tell.press("Enter")
-    page.get_by_role("button", name="Go on").click()
+    page.get_by_role("button", name="Resume").click()
     until(
         page,
         "document.querySelector('[aria-label=\"Log points\"]').textContent",
@@ -175,9 +175,9 @@ def test_a_condition_a_hover_and_a_log_point(page):
 def test_what_is_typed_at_a_breakpoint_stays_while_its_passes_are_counted(page):
     set_breakpoint(page, 11)
     halted(page, 11)
-    condition, passes = page.get_by_placeholder("Condition"), page.get_by_placeholder("Pass")
-    page.get_by_placeholder("Log, do not pause").fill("{i}")
-    page.get_by_role("button", name="Go on").click()
+    condition, passes = page.get_by_placeholder("Condition"), page.get_by_placeholder("Hit count")
+    page.get_by_placeholder("Log message").fill("{i}")
+    page.get_by_role("button", name="Resume").click()
     condition.press_sequentially("i < ")
     reached = "document.querySelector('.points small').textContent"
     before = page.evaluate(reached)
@@ -185,7 +185,7 @@ def test_what_is_typed_at_a_breakpoint_stays_while_its_passes_are_counted(page):
     condition.press_sequentially("0")
     assert condition.input_value() == "i < 0"
     condition.press("Tab")
-    until(page, reached, lambda text: text == "reached 0 ×")
+    until(page, reached, lambda text: text == "hit 0 ×")
     passes.press_sequentially("often")
     passes.press("Enter")
     page.get_by_text("no number of passes").wait_for()
@@ -208,8 +208,8 @@ def test_older_news_do_not_take_back_what_is_asked_of_a_breakpoint(page):
     set_breakpoint(page, 11)
     halted(page, 11)
     condition = page.get_by_placeholder("Condition")
-    page.get_by_placeholder("Log, do not pause").fill("{i}")
-    page.get_by_role("button", name="Go on").click()
+    page.get_by_placeholder("Log message").fill("{i}")
+    page.get_by_role("button", name="Resume").click()
     reached = "document.querySelector('.points small').textContent"
     until(page, f"{SEEN}.halted", lambda at: at is None)
     page.evaluate(HELD)
@@ -219,12 +219,12 @@ def test_older_news_do_not_take_back_what_is_asked_of_a_breakpoint(page):
     until(page, reached, lambda text: text != before)
     assert condition.input_value() == "i < 0"
     page.evaluate("go()")
-    until(page, reached, lambda text: text == "reached 0 ×")
+    until(page, reached, lambda text: text == "hit 0 ×")
     assert condition.input_value() == "i < 0"
 
 
 def test_lines_are_counted(page):
-    page.get_by_text("Count how often lines are reached").click()
+    page.get_by_text("Count executions of lines").click()
     page.locator(".cm-covered .cm-reached").first.wait_for()
 
 
@@ -232,7 +232,7 @@ def test_the_pendant_and_the_debugger_pause_the_same_and_time_is_stepped(page):
     page.get_by_role("tab", name="Pendant").click()
     pendant = page.locator("#panel-pendant")
     pendant.get_by_role("button", name="Pause").click()
-    pendant.get_by_role("button", name="Go on").wait_for()
+    pendant.get_by_role("button", name="Resume").wait_for()
     halted_at = "rapidgen.panels.program.seen.halted"
     before = until(page, halted_at)
     page.get_by_label("Length of a time step").select_option(label="1 s")
@@ -242,12 +242,12 @@ def test_the_pendant_and_the_debugger_pause_the_same_and_time_is_stepped(page):
     assert 1 - 1e-6 < after - before < 1.05
     page.get_by_role("tab", name="Program").click()
     until(page, HALTED, lambda text: text and "time step" in text)
-    page.locator("#panel-program").get_by_role("button", name="Go on").click()
+    page.locator("#panel-program").get_by_role("button", name="Resume").click()
     page.get_by_role("tab", name="Pendant").click()
     pendant.get_by_role("button", name="Pause").wait_for()
     page.evaluate("() => { rapidgen.link.on('panel', now => { window.pace = now.pace }) }")
     for pace in ("0.1", "100", "1"):
-        page.get_by_label("Pace of time").select_option(pace)
+        page.get_by_label("Simulation speed").select_option(pace)
         until(page, "window.pace", lambda pace_shown, wanted=float(pace): pace_shown == wanted)
 
 

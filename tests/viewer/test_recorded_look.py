@@ -12,7 +12,7 @@ from rapidgen.config import load_config
 from rapidgen.controller import VirtualController
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.viewer.appearance import PLAIN, appearance
-from rapidgen.viewer.messages import Pose, SeenThing
+from rapidgen.viewer.messages import Pose, SeenShape, SeenThing
 from rapidgen.viewer.recording import appearance as looks
 from rapidgen.viewer.recording.reader import RecordingFile
 from rapidgen.viewer.recording.writer import record
@@ -36,7 +36,8 @@ def seen(tmp_path_factory):
     assert len(look.files) == 3
     mesh = next(iter(look.files))
     pose = Pose(position=(1.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0))
-    thing = SeenThing(name="<b>table", mesh=mesh, scale=2.0, pose=pose)
+    shape = SeenShape(kind="mesh", size=(2.0,), pose=pose, mesh=mesh)
+    thing = SeenThing(name="<b>table", shapes=(shape,))
     bases = {"t_rob1": ((0.0, 0.5, 0.25), (1.0, 0.0, 0.0, 0.0))}
     return config, groups, replace(look, things=(thing,), bases=bases)
 
@@ -70,7 +71,7 @@ def test_meshes_beyond_limit_are_omitted_and_reported(seen):
     assert saved.faults[:-1] == look.faults
     urdf = saved.of(groups[0]).urdf
     assert [name in urdf for name in names] == [True, False, True]
-    assert [thing.mesh for thing in saved.things] == names[:1]
+    assert [thing.shapes[0].mesh for thing in saved.things] == names[:1]
     assert [*looks.carried(look, most=sizes[1]).files] == [names[0], names[2]]
     assert looks.carried(look, most=0).things == ()
     assert looks.carried(look) == look

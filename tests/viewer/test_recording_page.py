@@ -49,7 +49,7 @@ def page(address, open_page):
 
 
 def seek(page, time):
-    moment = page.get_by_label("Moment in seconds")
+    moment = page.get_by_label("Time in seconds")
     moment.fill(f"{time:.3f}")
     moment.press("Enter")
     until(page, f"{SEEN}.time", lambda now: now is not None and abs(now - time) < 1e-6)
@@ -107,7 +107,7 @@ def test_it_plays_and_refuses_to_command(page):
     seek(page, 1.0)
     page.get_by_label("Rate").select_option("10")
     until(page, f"{SEEN}.time", lambda time: time > 4)
-    page.get_by_role("button", name="Stop").click()
+    page.get_by_role("button", name="Pause").click()
     page.get_by_role("button", name="Play").wait_for()
     refused = page.evaluate("rapidgen.link.ask({do: 'act', action: 'start'}).catch(e => e.message)")
     assert "accepts no such request" in refused
@@ -116,23 +116,23 @@ def test_it_plays_and_refuses_to_command(page):
 
 def test_pictures_and_films_are_saved(page, tmp_path):
     with page.expect_download() as result:
-        page.get_by_role("button", name="PNG of the robots").click()
+        page.get_by_role("button", name="Save image").click()
     result.value.save_as(tmp_path / "robots.png")
     with Image.open(tmp_path / "robots.png") as picture:
         assert picture.size[0] > 300
         assert len(picture.convert("RGB").getcolors(1 << 20)) > 20
-    page.get_by_role("button", name="Film the robots").click()
+    page.get_by_role("button", name="Record video").click()
     page.get_by_role("button", name="Play").click()
     until(page, f"{SEEN}.time", lambda time: time > 0.5)
     # On a busy machine the browser is late with encoding what was drawn.
     until(page, f"{SEEN}.filmed", lambda size: size > 5000)
     with page.expect_download() as result:
-        page.get_by_role("button", name="End the film").click()
+        page.get_by_role("button", name="Stop recording").click()
     result.value.save_as(tmp_path / "robots.webm")
     data = (tmp_path / "robots.webm").read_bytes()
     assert data.startswith(b"\x1a\x45\xdf\xa3")  # EBML, which WebM is
     assert len(data) > 5000
     with page.expect_download() as result:
-        page.get_by_role("button", name="CSV").click()
+        page.get_by_role("button", name="Save CSV").click()
     result.value.save_as(tmp_path / "curves.csv")
     assert (tmp_path / "curves.csv").read_text().startswith('"time","joint_1"')

@@ -8,7 +8,7 @@ from tests.viewer.bench import STATE, simulator, until
 
 pytestmark = pytest.mark.browser
 CELL = Path(__file__).parents[2] / "tools" / "cell.yaml"
-FAULTS = "document.querySelectorAll('.notice.fault').length"
+FAULTS = "Number(document.querySelector('.message').dataset.count)"
 
 
 def pressed(page, group):
@@ -18,9 +18,9 @@ def pressed(page, group):
 
 
 def rejected(page):
-    """Wait for the notice of a rejection, and remove it before it leaves by itself."""
+    """Wait for the message of a rejection, and close it."""
     until(page, FAULTS, lambda count: count == 1)
-    page.evaluate("document.querySelectorAll('.notice').forEach((notice) => notice.remove())")
+    page.get_by_role("button", name="Close the message").click()
 
 
 def test_rejected_commands_leave_controls_at_robot_state(open_page):

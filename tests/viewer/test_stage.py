@@ -46,9 +46,10 @@ def test_targets_of_the_program_and_the_frames_of_its_moves_are_drawn(ready, ope
     until(page, f"{STATE}.groups[0].work_object.position", lambda at: at[0] == pytest.approx(0.3))
     displayed = "rapidgen.stage.robots.get('rob1').object.visible"
     until(page, displayed)
-    page.get_by_role("button", name="Frames").click()
+    page.get_by_text("Layers").click()
+    page.get_by_label("Frames").uncheck()
     until(page, displayed, lambda visible: not visible)
-    page.get_by_role("button", name="Targets").click()
+    page.get_by_label("Targets").uncheck()
     assert page.locator(".labels").is_hidden()
 
 
@@ -116,7 +117,7 @@ def test_the_tcp_is_dragged_by_the_mouse_and_typed(ready, open_page):
     # By the handle's x alone: the tool keeps its orientation.
     assert now["position"][1:] == pytest.approx(before["position"][1:], abs=1e-6)
     np.testing.assert_allclose(now["orientation"], before["orientation"], atol=1e-6)
-    page.get_by_role("tab", name="Axes").click()
+    page.get_by_role("tab", name="Jog").click()
     page.get_by_label("TCP z of rob1 in mm").fill("200")
     page.get_by_label("TCP z of rob1 in mm").press("Enter")
     until(page, f"{STATE}.groups[0].tcp.position[2]", lambda z: z == pytest.approx(0.2, abs=1e-6))
@@ -137,7 +138,7 @@ def test_what_is_asked_for_first_stays_when_the_next_one_comes_at_once(ready, op
     """Each order had values of all axes, so it reverted the one before."""
     page = open_page(ready["view"])
     stopped(page)
-    page.get_by_role("tab", name="Axes").click()
+    page.get_by_role("tab", name="Jog").click()
     displayed = page.locator(".axes input[type=range]").evaluate_all(
         "all => all.map(own => own.ariaLabel)"
     )

@@ -25,16 +25,16 @@ def test_a_trajectory_is_checked_drawn_and_executed(irb120, open_page):
     start = until(page, STATE)["groups"][0]["joints"]
     page.get_by_role("tab", name="Path").click()
     drop(page, "<b>far.csv", csv([0, *start], [1, 9, *GOAL[1:]]))
-    shown = until(page, SHOWN, lambda text: "cannot be executed" in text)
+    shown = until(page, SHOWN, lambda text: "Rejected." in text)
     assert "joint_1" in shown
     assert page.get_by_role("button", name="Execute").is_disabled()
     drop(page, "good.csv", csv([0, *start], [2, *GOAL]))
-    shown = until(page, SHOWN, lambda text: "can be executed" in text)
+    shown = until(page, SHOWN, lambda text: "Ready to execute." in text)
     assert "good.csv: 2 points in 2." in shown
     assert "mm/s" in shown
     page.get_by_role("button", name="Execute").click()
-    until(page, SHOWN, lambda text: "was executed." in text)
+    until(page, SHOWN, lambda text: "Executed." in text)
     until(page, f"{STATE}.groups[0].joints", lambda now: np.allclose(now, GOAL, atol=1e-5))
     picture_for_docs(page, "view")
-    page.get_by_role("button", name="Take away").click()
+    page.get_by_role("button", name="Remove").click()
     until(page, "document.querySelector('#panel-trajectory section:last-child').hidden")

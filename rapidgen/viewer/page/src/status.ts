@@ -73,13 +73,14 @@ export class StatusBar {
   private readonly text = h("span", { class: "text", tabindex: 0 });
   private readonly head = h("b", {});
   private readonly count = h("span", { class: "count" });
+  private readonly close = h("button", { type: "button", class: "quiet", "aria-label": "Close the message", onclick: () => this.clear() }, "×");
   private readonly message: HTMLElement;
   private timer = 0;
   private repeated = 0;
 
   constructor() {
     this.message = h("div", { class: "message", role: "alert", "data-kind": "none", "data-count": 0 }, this.head, this.text, this.count,
-      h("button", { type: "button", class: "quiet", "aria-label": "Close the message", onclick: () => this.clear() }, "×"));
+      this.close);
     this.element = h("div", { class: "status" }, this.state, this.message);
     this.clear();
   }
@@ -100,7 +101,7 @@ export class StatusBar {
     say(this.count, this.repeated > 1 ? `${this.repeated} ×` : "");
     this.message.dataset["kind"] = kind;
     this.message.dataset["count"] = String(this.repeated);
-    this.message.inert = false;
+    this.close.hidden = false;
     clearTimeout(this.timer);
     this.timer = window.setTimeout(() => this.clear(), kind === "fault" ? FAULT : PLAIN);
   }
@@ -113,7 +114,6 @@ export class StatusBar {
     say(this.count, "");
     this.message.dataset["kind"] = "none";
     this.message.dataset["count"] = "0";
-    // Without a message its button cannot be reached.
-    this.message.inert = true;
+    this.close.hidden = true;
   }
 }

@@ -66,7 +66,9 @@ export const pendantPanel: MakePanel = (view) => {
   }));
 
   link.on("panel", (now) => {
-    stop.disabled = now.e_stop === true;
+    stop.classList.toggle("pressed", now.e_stop === true);
+    // A disabled button would lose the focus to the whole page.
+    if (!now.e_stop && document.activeElement === reset) stop.focus();
     reset.disabled = now.e_stop !== true;
     reset.classList.toggle("primary", now.e_stop === true);
     mode.show(now.mode);
