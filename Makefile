@@ -117,6 +117,7 @@ unit: $(STAMP) $(PAGE) $(EDITORS)
 test-long: export PYTEST_XDIST_AUTO_NUM_WORKERS ?= $(shell echo $$(( $$(getconf _NPROCESSORS_ONLN) * 3 / 2 )))
 test-long: $(STAMP) $(PAGE) vsix
 	.ci/code_server
+	.ci/pytest_lsp
 	$(BIN)/python tools/driver_campaign.py days --hours 4 --watched 0.25
 	$(BIN)/python -m pytest -n auto
 
@@ -260,6 +261,9 @@ stop-trials: $(STAMP) ## 5 min: 2,000 random stops with up to three operator act
 
 editor-bench: $(STAMP) ## 1 min: answers of the language server after an edit, its start and memory
 	$(BIN)/python benchmarks/editor.py
+
+lsp-clients: $(STAMP) ## 1 min: the language server with pytest-lsp as Neovim, VS Code and Emacs
+	.ci/pytest_lsp
 
 editor-trials: $(STAMP) ## 5 min: edits, renames and requests in public programs; PROGRAMS=folder
 	$(BIN)/python tools/editor_trials.py $(PROGRAMS) --seconds 300
