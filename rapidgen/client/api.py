@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from functools import partial
 from html import escape
 from os import PathLike
-from typing import Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import AxisConfiguration
@@ -29,6 +29,9 @@ from rapidgen.client.runner import FlowRunner, MakeCore
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.config.model import EgmSettings, RobotConfig
 from rapidgen.diagnostics import Diagnostic
+
+if TYPE_CHECKING:
+    from rapidgen.client.collisions import CellCheck
 
 R = TypeVar("R", bound=FlowRunner)
 Subject = TypeVar("Subject", bound="CommandedMotion | PointSource")
@@ -176,7 +179,7 @@ class RobotApi(Generic[R]):
         plain: bool = False,
         reconnect: float = 0.0,
         feedback: bool = False,
-        cell: "str | PathLike[str] | None" = None,
+        cell: "str | PathLike[str] | CellCheck | None" = None,
     ) -> None:
         self.address, known = resolve(target, address, group)
         self._target, self._group_name = target, group

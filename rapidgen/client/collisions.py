@@ -138,7 +138,12 @@ def _at_least_two(values: Array) -> Array:
 
 
 def cell_check(cell: object, config: RobotConfig | None, group: str) -> CellCheck:
-    """Return the check of a robot in a cell file. Raises DiagnosticError (RG834: an address)."""
+    """Return the check of a robot in a cell file. Raises DiagnosticError (RG834: an address).
+
+    A check that was made before, for another connection of the same robot, is used again.
+    """
+    if isinstance(cell, CellCheck):
+        return cell
     if config is None:
         raise refusal(
             "RG834",

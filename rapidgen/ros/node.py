@@ -33,6 +33,7 @@ from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 from trajectory_msgs.msg import JointTrajectoryPoint
 
+from rapidgen._extras import named
 from rapidgen._interruption import INTERRUPTIONS, raise_on_signals
 from rapidgen.client.aio import AsyncRobot
 from rapidgen.client.errors import RobotError
@@ -42,7 +43,15 @@ from rapidgen.diagnostics import DiagnosticError
 from rapidgen.ros.goal_execution import ActiveGoal, GoalFeedback, reason
 from rapidgen.ros.goals import FinalStatus, Goal, Outcome, Point, Tolerance
 from rapidgen.ros.operator_interface import OperatorInterface
-from rapidgen.ros.parameters import DECLARED, NAMES, WHOLE, Parameters, check_address, read
+from rapidgen.ros.parameters import (
+    DECLARED,
+    NAMES,
+    WHOLE,
+    Parameters,
+    check_address,
+    check_control,
+    read,
+)
 from rapidgen.ros.robot_link import RobotLink, set_speeds
 from rapidgen.ros.status_messages import (
     DiagnosticsFilter,
@@ -110,14 +119,16 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
             parameters = read(values, os.environ)
             config = load_config(parameters.config, overrides=parameters.overrides)
             check_address(parameters.address, config)
-        except DiagnosticError as error:
-            self.get_logger().error(str(error))
+            check_control(parameters, config)
+            makers = [self._maker(config, parameters, group.name) for group in config.groups]
+        except (DiagnosticError, ModuleNotFoundError) as error:
+            helps = [one.help for one in getattr(error, "diagnostics", ()) if one.help]
+            self.get_logger().error("; ".join([str(error), *helps]))
             return TransitionCallbackReturn.FAILURE
         if not ARE_THERE:
             self.get_logger().info(MISSING)
         several = len(config.groups) > 1
-        for group in config.groups:
-            make = _maker(config, parameters, group.name)
+        for group, make in zip(config.groups, makers, strict=True):
             space = f"{group.name}/" if several else ""
             # One clock for all groups: two of them would go back and forth.
             clock = parameters.publish_clock and not self._doors
@@ -128,6 +139,26 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         if parameters.operator is not None:
             self._operator = OperatorInterface(self, parameters.operator)
         return super().on_configure(state)
+
+    def _maker(
+        self, config: RobotConfig, parameters: Parameters, group: str
+    ) -> Callable[[], AsyncRobot]:
+        """Return what makes the group's client. Raises DiagnosticError for a faulty cell."""
+        check = None
+        if parameters.cell:
+            with named():
+                from rapidgen.client.collisions import cell_check
+
+                # Meshes are read once, not again for each connection.
+                check = cell_check(parameters.cell, config, group)
+            for finding in check.diagnostics:
+                self.get_logger().warning(f"{finding.code}: {finding.message}")
+
+        def make() -> AsyncRobot:
+            address = parameters.address or None
+            return AsyncRobot(config, address=address, group=group, feedback=True, cell=check)
+
+        return make
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Connect to the robot, and keep the connection."""
@@ -278,7 +309,10 @@ class GroupInterface:
         self._stops: dict[int, int] = {}
         """By the identity of a goal's request: stops before its acceptance."""
         self._callbacks = ReentrantCallbackGroup()
-        self._joint_states = self._publisher(JointState, "joint_states")
+        # With ros2_control its broadcaster publishes `joint_states`, from what its hardware reads.
+        self._joint_states = self._publisher(
+            JointState, "joint_states" if parameters.has_action else f"~/{space}joint_states"
+        )
         self._diagnostics = self._publisher(DiagnosticArray, "/diagnostics")
         self._filter = DiagnosticsFilter(
             f"{node.get_fully_qualified_name()} {controller} {uuid.uuid4().hex}"
@@ -308,10 +342,13 @@ class GroupInterface:
             )
             for kind, name, serve in services(self.link)
         ]
-        self._action = ActionServer(
-            node,
+        self._action = self._make_action() if parameters.has_action else None
+
+    def _make_action(self) -> ActionServer:
+        return ActionServer(
+            self._node,
             FollowJointTrajectory,
-            f"{controller}/follow_joint_trajectory",
+            f"{self._name}/follow_joint_trajectory",
             execute_callback=self._execute,
             callback_group=self._callbacks,
             # A rejection has no reason: goals are accepted, and aborted with one.
@@ -329,7 +366,8 @@ class GroupInterface:
 
     def destroy(self) -> None:
         """Destroy all entities of the group."""
-        self._action.destroy()
+        if self._action is not None:
+            self._action.destroy()
         for service in self._services:
             self._node.destroy_service(service)
         self._node.destroy_subscription(self._heard)
@@ -505,14 +543,6 @@ def _ending(handle: Message, outcome: Outcome) -> Message:
     result.error_code = int(outcome.code)
     result.error_string = outcome.text
     return result
-
-
-def _maker(config: RobotConfig, parameters: Parameters, group: str) -> Callable[[], AsyncRobot]:
-    def make() -> AsyncRobot:
-        address = parameters.address or None
-        return AsyncRobot(config, address=address, group=group, feedback=True)
-
-    return make
 
 
 def _described(text: str) -> ParameterDescriptor:

@@ -21,6 +21,8 @@ DECLARED: tuple[tuple[str, str | bool | float | list[str], str], ...] = (
     # A list without an element has no type for rclpy.
     ("overrides", [""], "KEY=VALUE, each over a key of config: what `rapidgen build --set` had"),
     ("address", "", "HOST, or HOST:MOTION,STATE,CONTROL; empty: a simulator on this machine"),
+    ("cell", "", "cell file: goals are checked for collisions before they are sent"),
+    ("control", "node", "node: FollowJointTrajectory; ros2_control: set points of its hardware"),
     ("autostart", True, "configure and activate without being asked"),
     ("tf_prefix", "", "put in front of joint names"),
     ("publish_clock", False, "/clock from the controller's time, for a simulator"),
@@ -37,9 +39,13 @@ DECLARED: tuple[tuple[str, str | bool | float | list[str], str], ...] = (
     # A list without an element has no type for rclpy.
     ("operate", [""], f"services that may be called: {', '.join(sorted(GUARDED))}"),
 )
+_WORDS = {
+    "control": ("node", "ros2_control"),
+    "replace": ("refuse", "approach"),
+    "dense": ("refuse", "resample"),
+}
 PASSWORD = "RAPIDGEN_PASSWORD"
 """Environment variable: parameters of a node can be read by every other node."""
-"""Name, default, description."""
 NAMES = frozenset(name for name, _, _ in DECLARED)
 """Those of this node; rclpy has others."""
 
@@ -51,8 +57,12 @@ class Parameters:
     config: str
     overrides: tuple[str, ...]
     address: str
+    cell: str
+    """Empty: no collision check."""
     tf_prefix: str
     publish_clock: bool
+    has_action: bool
+    """False: trajectories and joint_states are those of ros2_control's controllers."""
     policy: Policy
     operator: OperatorAccess | None
     """None: no services of the operator."""
@@ -63,7 +73,7 @@ def read(values: Mapping[str, Any], environment: Mapping[str, str]) -> Parameter
     result = []
     if not values["config"]:
         result.append(_fault("config is not set", "-p config:=robot.yaml"))
-    for name, words in (("replace", ("refuse", "approach")), ("dense", ("refuse", "resample"))):
+    for name, words in _WORDS.items():
         if values[name] not in words:
             report = f"{name} is '{values[name]}'"
             result.append(_fault(report, f"it is {' or '.join(words)}"))
@@ -92,8 +102,10 @@ def read(values: Mapping[str, Any], environment: Mapping[str, str]) -> Parameter
         values["config"],
         tuple(filter(None, values["overrides"])),
         values["address"],
+        values["cell"],
         values["tf_prefix"],
         values["publish_clock"],
+        values["control"] == "node",
         Policy(
             Defaults(
                 path=values["path_tolerance"] or math.inf,
@@ -128,6 +140,18 @@ def check_address(address: str, config: RobotConfig) -> None:
                 f"address is '{address}', with the ports of one motion group, and {config.name} "
                 f"has {len(config.groups)} of them",
                 "HOST alone: the ports are those of the configuration",
+            )
+        )
+
+
+def check_control(parameters: Parameters, config: RobotConfig) -> None:
+    """Raise DiagnosticError if set points are to come from ros2_control and a group has no EGM."""
+    without = [group.name for group in config.groups if group.egm is None]
+    if not parameters.has_action and without:
+        raise DiagnosticError(
+            _fault(
+                f"control is 'ros2_control', and {', '.join(without)} has no `egm:`",
+                "build the driver with `egm:`, or use control:=node",
             )
         )
 

@@ -3,6 +3,7 @@
 `Driver` has the surface of `standin.LifecycleNode`, so that the same tests run with both.
 """
 
+import gc
 import importlib
 import os
 import threading
@@ -208,6 +209,12 @@ class Driver(Client):
         names = {publisher.topic_name for publisher in self.node.publishers}
         return {name for name in names if not name.endswith(_OWN) and "/_action/" not in name}
 
+    @property
+    def published_actions(self):
+        """Action servers of the node, from what it publishes for them."""
+        names = {publisher.topic_name for publisher in self.node.publishers}
+        return {name for name in names if name.endswith("/_action/status")}
+
     def qos(self, name):
         """Reliability, durability and depth of the node's publisher."""
         name = name if name.startswith("/") else f"/{name}"
@@ -258,6 +265,10 @@ class Driver(Client):
         # Else a callback that still runs would use what is destroyed.
         self._workers._executor.shutdown(wait=True)
         self.node.destroy_node()
+        # rcl ends a node when its last reference goes, and with it the log of a new node of this
+        # name: not later, while that one runs.
+        del self.node
+        gc.collect()
 
 
 class _Broken:

@@ -421,12 +421,17 @@ class LifecycleNode:
     ):
         assert isinstance(qos_profile, QoSProfile)
         return self.topics.setdefault(
-            topic, Publisher(msg_type, qos_profile, qos_overriding_options)
+            topic.replace("~", f"/{self._name}", 1),
+            Publisher(msg_type, qos_profile, qos_overriding_options),
         )
 
     @property
     def published(self):
         return {name if name.startswith("/") else f"/{name}" for name in self.topics}
+
+    @property
+    def published_actions(self):
+        return set(self.actions)
 
     def qos(self, name):
         profile = self.topics[name].qos

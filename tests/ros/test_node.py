@@ -125,6 +125,24 @@ def test_refused_is_aborted_with_its_reason(up):
     assert "not a joint here" in ended(action(node).send(toleranced))[2]
 
 
+CELL = """
+robots: {T_ROB1: {model: irb120, shapes: none}}
+tools: {tBall: {frame: {position: [0, 0, 40]}, load: {mass: 1}, shapes: [{sphere: 30}]}}
+things: {table: {half_space: [0, 0, 1], frame: {position: [0, 0, 300]}}}
+collision: {}
+"""
+
+
+def test_goal_into_an_object_of_the_cell_is_refused_with_the_pair(up, tmp_path):
+    (tmp_path / "cell.yaml").write_text(CELL)
+    node = up(cell=str(tmp_path / "cell.yaml"))
+    wait_for_line(node.get_logger(), "have no shapes")
+    status, code, text = ended(action(node).send(goal(0.0, 0.9, seconds=5.0)))
+    assert (status, code) == ("aborted", -1)
+    assert "tBall touches table" in text
+    assert ended(action(node).send(goal(0.0, 0.1)))[0] == "succeeded"
+
+
 def test_good_goal_after_refused_one_succeeds(up):
     """rclpy ends a goal ABORTED and without a text where the callback raises, as its logger did."""
     node = up()
@@ -243,6 +261,9 @@ def test_refusal_is_an_error_code_of_robot_status(up):
         ({"config": "irb120", "address": "not an address"}, "is not an address of a robot"),
         ({"config": "irb14000", "address": "127.0.0.1:11000"}, "irb14000 has 2 of them"),
         ({"config": "irb120", "overrides": ["ports.moton=1"]}, "unknown key 'moton'"),
+        ({"config": "irb120", "cell": "/no/such/cell.yaml"}, "cell.yaml"),
+        ({"config": "irb120", "control": "moveit"}, "it is node or ros2_control"),
+        ({"config": "irb120", "control": "ros2_control"}, "rob1 has no `egm:`"),
         # An override is of a motion: the first goal would have gone at full speed.
         ({"config": "irb120", "speed": 20.0}, "would not move"),
     ],

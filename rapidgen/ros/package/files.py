@@ -16,7 +16,7 @@ from rapidgen._data import data_folder
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.config.yaml_text import yaml_flow, yaml_text
 from rapidgen.diagnostics import DiagnosticError, error
-from rapidgen.ros.package import srdf, urdf
+from rapidgen.ros.package import ros2_control, srdf, urdf
 
 JOINT_STATES_RATE = 50
 """Hz of joint_states of a package whose configuration has the default of 10.
@@ -96,7 +96,11 @@ def _ros2(
             "prefix": robot.prefix,
             "host": f"127.0.0.{number}",
             "groups": [
-                _group(group, one) | {"solved": _solved(group, robot.prefix, drawn)}
+                _group(group, one)
+                | {
+                    "solved": _solved(group, robot.prefix, drawn),
+                    "states": ros2_control.node_topics(robot, group) + "/joint_states",
+                }
                 for group in member.config.groups
             ],
         }
@@ -112,11 +116,14 @@ def _ros2(
             "groups": [group for robot in robots for group in robot["groups"]],
             "start_tolerance": f"{tolerance * _START_SHARE:.4f}",
             "is_cell": any(names),
+            "has_ros2_control": ros2_control.is_possible(placed),
         },
     )
     files = {f"{base}_{path}": text for path, text in files.items()}
-    files[f"{base}_description/urdf/{base}.urdf"] = drawn.text
     files[f"{base}_moveit_config/config/{base}.srdf"] = srdf.draw(placed, drawn, called)
+    # Last: its joints are not those of the tree.
+    ros2_control.add_hardware(drawn.root, placed)
+    files[f"{base}_description/urdf/{base}.urdf"] = drawn.text
     return files
 
 
@@ -186,7 +193,9 @@ def _rendered(kind: str, context: Mapping[str, object]) -> dict[str, str]:
     environment.filters["text"] = yaml_text
     files = {}
     for template in sorted(environment.list_templates(extensions=["j2"])):
-        files[template.removesuffix(".j2")] = environment.get_template(template).render(context)
+        text = environment.get_template(template).render(context)
+        if text.strip():  # A template without text does not apply to this robot.
+            files[template.removesuffix(".j2")] = text
     return files
 
 
@@ -200,6 +209,9 @@ def _group(group: GroupConfig, robot: str = "") -> dict[str, object]:
     return {
         "name": prefix + group.name,
         "controller": (f"{robot}/" if robot else "") + f"{group.name}_controller",
+        "jtc": f"{prefix}{group.name}_controller",
+        "forward": f"{prefix}{group.name}_forward_controller",
+        "lag": f"{ros2_control.path_tolerance(group):.3f}",
         "joints": [
             {
                 "name": prefix + joint.name,
