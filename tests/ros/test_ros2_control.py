@@ -90,7 +90,7 @@ def test_controllers_have_the_joints_and_begin_where_the_robot_stands(guided):
     assert trajectory["set_last_command_interface_value_as_state_on_activation"] is False
     # 45 deg/s at a gain of 5 /s is 0.157 rad behind.
     assert trajectory["constraints"]["joint_1"]["trajectory"] == pytest.approx(0.257, abs=1e-3)
-    # MoveIt finds the same action, whoever executes it.
+    # MoveIt finds an action with the same name.
     moveit = read(files["cell_moveit_config/config/moveit_controllers.yaml"])
     names = moveit["moveit_simple_controller_manager"]["controller_names"]
     assert names == ["rob1_controller"]
