@@ -7,9 +7,10 @@ texts have U+0085 inside of comments.
 
 import os
 import re
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import accumulate
 from pathlib import Path
 from types import ModuleType
 from typing import Final, Literal
@@ -27,6 +28,8 @@ _LINE_END: Final = re.compile(r"\r\n?|\n")
 _SCHEME: Final = re.compile(r"[A-Za-z][A-Za-z0-9+.-]+:")
 """The start of an address; a single letter is a drive of Windows."""
 _DRIVE: Final = re.compile(r"/[A-Za-z]:")
+_ASTRAL: Final = re.compile(r"[^\u0000-\uffff]")
+_NOT_ASCII: Final = re.compile(r"[^\x00-\x7f]")
 ENCODINGS: Final = ("auto", "utf-8", "latin-1", "cp1252", "gbk")
 """Encodings of files that are not open; `auto` is UTF-8 if valid, else Latin-1."""
 
@@ -76,6 +79,8 @@ class Lines:
 
     text: str
     starts: Sequence[int] = ()
+    _widths: tuple[int, Units, "_Widths"] | None = None
+    """Of the last line that was asked about: an answer may have many places in one long line."""
 
     def __post_init__(self) -> None:
         if not self.starts:
@@ -116,8 +121,35 @@ class Lines:
 
     def point(self, line: int, column: int, units: Units) -> Position:
         """Return the position of a line and column from 1, in code points."""
-        text = self._line(line - 1)
-        return max(0, line - 1), _units_of(text[: max(0, column - 1)], units)
+        number = line - 1
+        known = self._widths
+        if known is None or known[:2] != (number, units):
+            known = self._widths = (number, units, _widths(self._line(number), units))
+        return max(0, number), known[2].units(max(0, column - 1))
+
+
+@dataclass(frozen=True, slots=True)
+class _Widths:
+    """The characters of a line that have more than one unit."""
+
+    length: int
+    places: Sequence[int]
+    further: Sequence[int]
+    """Units beyond one a character, of all characters up to each place."""
+
+    def units(self, characters: int) -> int:
+        """Return the units of the first characters."""
+        characters = min(characters, self.length)
+        at = bisect_left(self.places, characters)
+        return characters + (self.further[at - 1] if at else 0)
+
+
+def _widths(line: str, units: Units) -> _Widths:
+    if units == "utf-32" or line.isascii():
+        return _Widths(len(line), (), ())
+    pattern = _ASTRAL if units == "utf-16" else _NOT_ASCII
+    found = [(match.start(), _units_of(match[0], units) - 1) for match in pattern.finditer(line)]
+    return _Widths(len(line), [at for at, _ in found], list(accumulate(more for _, more in found)))
 
 
 def _code_points(line: str, character: int, units: Units) -> int:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from difflib import SequenceMatcher
 from typing import Final
 
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Fix, Span
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Fix, Span, refusal
 from rapidgen.editor.documents import TextEdit
 from rapidgen.editor.workspace import View
 from rapidgen.rapid.syntax.format import INDENT, format_source
@@ -26,14 +26,20 @@ _ROUTINES: Final = frozenset(("PROC", "FUNC", "TRAP"))
 _ROUTINE_ENDS: Final = frozenset(("ENDPROC", "ENDFUNC", "ENDTRAP"))
 _DIVIDERS: Final = frozenset(("ELSE", "ELSEIF", "CASE", "DEFAULT"))
 _HANDLERS: Final = frozenset(("ERROR", "UNDO", "BACKWARD"))
+_MANY: Final = 200_000
+"""Tokens of a module that is not formatted."""
 
 
 def format_document(view: View, lines: tuple[int, int] | None = None) -> list[TextEdit]:
     """Return the edits that format a module, or its lines first to last (from 1).
 
-    Raises DiagnosticError for a text with syntax errors, unless parts of the lines are complete.
+    Raises DiagnosticError for a text with syntax errors, unless parts of the lines are complete,
+    and for one that is too large to be formatted within a second.
     """
     source = view.source
+    if len(source.tokens) > _MANY:
+        message = f"the module has more than {_MANY:,} words and signs"
+        raise refusal("RG337", Span(source.path, 1, 1), message, "format it with `rapidgen fmt`")
     before = _with_ends(source.text)
     try:
         after = _with_ends(format_source(source.text, path=source.path))

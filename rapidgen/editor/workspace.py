@@ -43,6 +43,8 @@ LARGE: Final = 1_000_000
 """Characters of a module above which only its syntax is checked."""
 TOO_LARGE: Final = 2_000_000
 """Characters of a module that is not analysed: its parse would delay each answer by a second."""
+MANY: Final = 550_000
+"""Tokens of a module of which only syntax errors are known: its names would take a second, too."""
 
 
 @dataclass(slots=True, eq=False)
@@ -359,10 +361,14 @@ class Workspace:
             return known[1]
         text = content if isinstance(content, str) else self._decoded(content)
         if len(text) > TOO_LARGE:
-            tree = Module(0, 0, "", (), [], Source("", path, "utf-8"), [_too_large(path)])
+            what = f"{TOO_LARGE:,} characters"
+            tree = Module(0, 0, "", (), [], Source("", path, "utf-8"), [_too_large(path, what)])
             self._trees[real] = (content, tree)
             return tree
         tree = parse(text, path=path, dialect=program.program.dialect)
+        if len(tree.source.tokens) > MANY:
+            found = [*tree.diagnostics, _too_large(path, f"{MANY:,} words and signs")]
+            tree = Module(0, 0, "", (), [], Source("", path, "utf-8"), found)
         self._trees[real] = (content, tree)
         return tree
 
@@ -503,11 +509,11 @@ def _file_encoding(document: Document, dialect: Dialect) -> list[Diagnostic]:
     return encoding_findings(document.path, decode(data)[1], dialect)
 
 
-def _too_large(path: str) -> Diagnostic:
+def _too_large(path: str, limit: str) -> Diagnostic:
     return error(
         "RG337",
         Span(path, 1, 1),
-        f"the text has more than {TOO_LARGE:,} characters: it is not analysed while it is edited",
+        f"the text has more than {limit}: it is not analysed while it is edited",
         "check it with `rapidgen check`, or split the module",
         severity=Severity.INFO,
     )

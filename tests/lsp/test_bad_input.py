@@ -5,7 +5,9 @@ import time
 
 import pytest
 
-from rapidgen.editor.documents import Document
+from rapidgen.diagnostics import DiagnosticError
+from rapidgen.editor.documents import Document, Lines
+from rapidgen.editor.formatting import format_document
 from rapidgen.editor.workspace import TOO_LARGE, Workspace
 from rapidgen.wire.framing import encode
 from tests.lsp.client import Client, Failed
@@ -31,12 +33,13 @@ def opened(path, text):
         ("", ["RG208"]),
         ("\0\1\2\3" * 500, ["RG218"]),
         ("x" * 10_000_000, ["RG337"]),
+        ("MODULE m\nPROC p()\n" + "a:=1;" * 150_000 + "ENDPROC\nENDMODULE", ["RG337"]),
         ("MODULE m " + "(" * 5_000, ["RG201"]),
         ("MODULE m\nPROC p()\n" + "IF TRUE THEN\n" * 2_000, ["RG210"]),
         ('MODULE m\nPROC p()\nTPWrite "' + "\u5b57" * 1000, ["RG207"]),
         ("MODULE m\r\rPROC p()\r\r\nENDPROC\x85\u2028\nENDMODULE", ["RG204"]),
     ],
-    ids=["empty", "binary", "one line of 10 MB", "open", "nested", "quote", "line ends"],
+    ids=["empty", "binary", "10 MB", "words", "open", "nested", "quote", "ends"],
 )
 def test_any_text_has_findings_and_answers(tmp_path, text, expected):
     path = tmp_path / "m.mod"
@@ -45,6 +48,28 @@ def test_any_text_has_findings_and_answers(tmp_path, text, expected):
     workspace.documents[str(path)].edit(None, GOOD.format("m"), "utf-16")
     workspace.edited(str(path))
     assert workspace.findings_of(str(path)) == []
+
+
+def test_a_module_that_is_too_large_to_format_is_refused(tmp_path):
+    text = "MODULE m\nPROC p()\n" + "a:=1;" * 60_000 + "ENDPROC\nENDMODULE"
+    path = tmp_path / "m.mod"
+    (view,) = opened(path, text).views(str(path))
+    with pytest.raises(DiagnosticError) as refused:
+        format_document(view)
+    assert codes(refused.value.diagnostics) == ["RG337"]
+    assert format_document(opened(path, GOOD.format("m")).views(str(path))[0]) == []
+
+
+@pytest.mark.parametrize("units", ["utf-8", "utf-16", "utf-32"])
+def test_places_in_long_lines_are_counted_in_units(units):
+    """The specification of LSP 3.17 counts code units; the expected value encodes the text."""
+    text = "a\u00e4\u5b57\U0001f916b\r\nplain\n\U0001f916\U0001f916"
+    lines = Lines(text)
+    size = {"utf-8": 1, "utf-16": 2, "utf-32": 4}[units]
+    for number, line in ((2, "plain"), (1, "a\u00e4\u5b57\U0001f916b"), (3, "\U0001f916" * 2)):
+        for column in range(1, len(line) + 2):
+            expected = len(line[: column - 1].encode(f"{units}-le" if size > 1 else units)) // size
+            assert lines.point(number, column, units) == (number - 1, expected)
 
 
 def test_requests_in_a_line_of_10_mb_return(tmp_path):
