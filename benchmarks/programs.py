@@ -33,10 +33,10 @@ NOTHING = b"MODULE cell\n PROC nothing()\n  RETURN;\n ENDPROC\nENDMODULE\n"
 
 def zigzag(robot, count: int) -> Program:
     """Return lines of about 5 cm."""
-    (x, y, z), q = robot.pose_of(BENT)
+    pose = robot.pose_of(BENT)
     program = Program(speed=0.3, zone="z5")
     for n in range(1, count + 1):
-        program.move_linear(((x, y + 0.05 * (n % 2), z + 0.01 * (n % 7)), q))
+        program.move_linear(pose.moved(y=0.05 * (n % 2), z=0.01 * (n % 7)))
     return program
 
 

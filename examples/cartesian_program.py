@@ -7,12 +7,12 @@ BENT = [0.0, 0.1, 0.1, 0.0, 0.9, 0.0]
 
 with robot_of("irb120") as robot:
     robot.move_to(BENT, speed=0.8)
-    (x, y, z), turned = robot.pose  # m, and a quaternion with the scalar first
+    pose = robot.pose
 
     program = Program(speed=0.3, zone="z10")
-    program.move_linear(((x, y + 0.04, z), turned))
-    program.move_circular(((x, y + 0.06, z + 0.02), turned), ((x, y + 0.04, z + 0.04), turned))
-    program.move_linear(((x, y, z), turned), zone="fine")
+    program.move_linear(pose.moved(y=0.04))
+    program.move_circular(pose.moved(y=0.06, z=0.02), pose.moved(y=0.04, z=0.04))
+    program.move_linear(pose, zone="fine")
 
     for note in robot.check_program(program):
         print(note.message)

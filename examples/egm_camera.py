@@ -10,6 +10,7 @@ import random
 from collections import deque
 
 from guiding import session_of
+from rapidgen.client import Pose
 
 PERIOD, LATENCY, NOISE = 1 / 30, 0.060, 0.0002  # s, s, m
 BELT = (0.0, 0.03, 0.0)  # m/s
@@ -51,7 +52,7 @@ with session_of("guided_tcp.mod") as session:
         if seen is not None:
             # The picture is old: the part has moved on since then.
             session.send(
-                pose=(add(place, speed, time - seen), orientation), speeds=[*speed, 0, 0, 0]
+                pose=Pose(add(place, speed, time - seen), orientation), speeds=[*speed, 0, 0, 0]
             )
         state = session.next_state()
         errors.append(math.dist(state.pose[0], real))

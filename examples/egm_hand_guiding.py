@@ -7,6 +7,7 @@ point as a spring does; a real one comes from a force sensor.
 import math
 
 from guiding import session_of
+from rapidgen.client import Pose
 
 MASS, DAMPING = 4.0, 30.0  # kg, N s/m
 STIFFNESS, STRONGEST = 60.0, 8.0  # N/m and N of the hand
@@ -28,7 +29,7 @@ with session_of("guided_tcp.mod") as session:
     speed = [0.0, 0.0, 0.0]
     while state.controller_time - begin.controller_time < SECONDS:
         before = state.controller_time
-        session.send(pose=(place, orientation), speeds=[*speed, 0.0, 0.0, 0.0])
+        session.send(pose=Pose(place, orientation), speeds=[*speed, 0.0, 0.0, 0.0])
         state = session.next_state()
         step = state.controller_time - before
         # The hand feels the robot where it is, not where it was sent.

@@ -22,7 +22,16 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "client")
 from driven import driven
 
 from rapidgen.axes import frames
-from rapidgen.client import InvalidProgram, Program, Speed, Trigger, UserTool, UserWorkObject, Zone
+from rapidgen.client import (
+    InvalidProgram,
+    Pose,
+    Program,
+    Speed,
+    Trigger,
+    UserTool,
+    UserWorkObject,
+    Zone,
+)
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.program_checks import check_program
 from rapidgen.config import load_config
@@ -71,8 +80,8 @@ def random_program(group: Group, rng: random.Random) -> Program:
     number = rng.randint(3, 12)
     program.move_joints(START, zone="fine")
     tool, wobj = (
-        UserTool(((0.0, 0.02, 0.1), (1, 0, 0, 0)), 0.5, (0.0, 0.0, 0.05)),
-        UserWorkObject(((0.2, 0.1, 0.0), frames.from_rpy(0, 0, 0.3))),
+        UserTool(Pose((0.0, 0.02, 0.1)), 0.5, (0.0, 0.0, 0.05)),
+        UserWorkObject(Pose((0.2, 0.1, 0.0), frames.from_rpy(0, 0, 0.3))),
     )
     chosen = (0, 0)
     while len(program) < number:
@@ -135,7 +144,7 @@ def _near(pose, rng: random.Random):
         y + rng.uniform(-0.06, 0.06),
         z + rng.uniform(-0.05, 0.05),
     )
-    return moved, frames.multiply(turn, q)
+    return Pose(moved, frames.multiply(turn, q))
 
 
 @contextmanager

@@ -195,7 +195,9 @@ def _joints(robot: "Robot", units: Units, figures: Figures) -> tuple[float, ...]
 
 def _posture(robot: "Robot", place: "Vector", turn: "Quaternion | None") -> tuple[float, ...]:
     """Return the nearest joint values for a pose; without `turn`, the orientation stays."""
-    pose = (place, robot.pose[1] if turn is None else turn)
+    from rapidgen.client import Pose
+
+    pose = Pose(place, robot.pose.orientation if turn is None else turn)
     result = robot.joints_for(pose)
     if not result:
         raise _unreached(robot, pose)

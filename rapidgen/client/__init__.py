@@ -28,6 +28,7 @@ from rapidgen.client.errors import (
     StopFailed,
     TrajectoryRefused,
 )
+from rapidgen.client.pose import Pose, from_degrees
 from rapidgen.client.program import (
     Program,
     Speed,
@@ -73,6 +74,7 @@ __all__ = [
     "MotionStopped",
     "NotReady",
     "NotSupported",
+    "Pose",
     "Program",
     "ProgramRun",
     "Progress",
@@ -99,6 +101,7 @@ __all__ = [
     "UserWorkObject",
     "Waypoint",
     "Zone",
+    "from_degrees",
     "pulse",
 ]
 

@@ -11,7 +11,6 @@ from html import escape
 from os import PathLike
 from typing import TYPE_CHECKING, Generic, TypeVar
 
-from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import AxisConfiguration
 from rapidgen.client import display, flows
 from rapidgen.client.address import LOOPBACK, Address
@@ -23,7 +22,8 @@ from rapidgen.client.core.point_source import PointSource
 from rapidgen.client.core.robot import Core, Timeouts
 from rapidgen.client.core.state import Driver, Event, Feedback, Progress, State
 from rapidgen.client.errors import InvalidProgram, InvalidTarget
-from rapidgen.client.program import Program, joints_of, pose_of
+from rapidgen.client.pose import Pose, pose_of
+from rapidgen.client.program import Program, joints_of
 from rapidgen.client.recording import JointRecording
 from rapidgen.client.runner import FlowRunner, MakeCore
 from rapidgen.client.trajectory import Trajectory
@@ -325,10 +325,10 @@ class RobotApi(Generic[R]):
     def pose_of(self, joints: Sequence[float]) -> Pose:
         """Return the pose that joints (rad, m) reach.
 
-        It is ((x, y, z), (w, x, y, z)), m. Raises NotSupported if the robot's geometry is unknown,
+        Raises NotSupported if the robot's geometry is unknown,
         InvalidProgram if the values are not its joints.
         """
-        return self.group.poses.pose(_on_axes(self.group, joints))
+        return Pose(*self.group.poses.pose(_on_axes(self.group, joints)))
 
     def joints_for(
         self,

@@ -14,9 +14,9 @@ from os import PathLike
 from typing import TYPE_CHECKING, SupportsFloat, TypeAlias, TypedDict
 
 from rapidgen._compat import Self, Unpack
-from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import AxisConfiguration
 from rapidgen.client.errors import InvalidProgram
+from rapidgen.client.pose import IDENTITY, Pose, pose_of
 from rapidgen.diagnostics import suggest
 from rapidgen.wire.simple_message.spec import Instruction, MarkPlace
 
@@ -168,7 +168,7 @@ class UserWorkObject:
     """
 
     user_frame: Pose
-    object_frame: Pose = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
+    object_frame: Pose = IDENTITY
 
 
 @dataclass(frozen=True, slots=True)
@@ -541,13 +541,3 @@ def joints_of(joints: Sequence[float]) -> tuple[float, ...]:
     except (TypeError, ValueError) as error:
         help = "joints are numbers in rad and m, one for each, such as [0, 0.1, 0, 0, 0.5, 0]"
         raise _malformed(f"{joints!r} are not joints", help) from error
-
-
-def pose_of(pose: Pose) -> Pose:
-    """Return a pose as plain tuples. Raises InvalidProgram for other values."""
-    try:
-        (x, y, z), (w, a, b, c) = pose
-        return (float(x), float(y), float(z)), (float(w), float(a), float(b), float(c))
-    except (TypeError, ValueError) as error:
-        help = "a pose is ((x, y, z), (w, x, y, z)): m, and a unit quaternion with the scalar first"
-        raise _malformed(f"{pose!r} is not a pose", help) from error

@@ -28,6 +28,7 @@ from rapidgen.client.core.frames import Frames
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.program_checks import CheckedProgram, check_program
 from rapidgen.client.errors import InvalidProgram, InvalidTarget
+from rapidgen.client.pose import pose_of
 from rapidgen.client.program import (
     FINE,
     Argument,
@@ -39,7 +40,6 @@ from rapidgen.client.program import (
     Zone,
     ZoneLike,
     joints_of,
-    pose_of,
     zone_of,
 )
 from rapidgen.config import load_config
@@ -451,7 +451,7 @@ class _Converter:
             target: rapid.Target = rapid.JointTarget(*self.complete.map.to_rapid(joints))
             return rapid.Argument(target, parameter.type, parameter.inout)
         if parameter.type == "robtarget":
-            pose = pose_of(cast("Pose", value))
+            pose = pose_of(value)
             target = self._target(pose, self._frames(step).postures(pose, posture)[0])
             return rapid.Argument(target, parameter.type, parameter.inout)
         plain = cast("float | bool | str", value)

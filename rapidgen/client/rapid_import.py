@@ -4,10 +4,11 @@ from math import radians
 from os import PathLike
 from typing import TypedDict
 
-from rapidgen.axes.frames import Pose, normalise
+from rapidgen.axes.frames import normalise
 from rapidgen.axes.kinematics import AxisConfiguration
 from rapidgen.axes.mapping import ABSENT
 from rapidgen.client.core.group import Group
+from rapidgen.client.pose import Pose
 from rapidgen.client.program import (
     FINE,
     Argument,
@@ -211,7 +212,7 @@ class _Importer:
 def _pose(trans: tuple[float, ...], rot: tuple[float, ...]) -> Pose:
     x, y, z = (_round(value * _MM) for value in trans)
     w, a, b, c = rot
-    return (x, y, z), normalise((w, a, b, c))
+    return Pose((x, y, z), normalise((w, a, b, c)))
 
 
 def _zone(zone: rapid.Zone) -> Zone:

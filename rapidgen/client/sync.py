@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 import numpy.typing as npt
 
 from rapidgen._compat import Self
-from rapidgen.axes.frames import Pose
 from rapidgen.client import flows
 from rapidgen.client.api import ExecutionApi, RobotApi, RunApi, StreamApi
 from rapidgen.client.core.checks import TransferMode
@@ -18,6 +17,7 @@ from rapidgen.client.core.motion import CommandedMotion, Result
 from rapidgen.client.core.point_source import PointSource, batches
 from rapidgen.client.core.state import Event, Feedback, State
 from rapidgen.client.flows.data import Datum
+from rapidgen.client.pose import Pose
 from rapidgen.client.program import SLOW, Argument, Left, Program, SpeedLike
 from rapidgen.client.sync_runner import SyncFlowRunner
 from rapidgen.client.trajectory import Trajectory

@@ -2,6 +2,7 @@
 
 from rapidgen.client.core.group import Group
 from rapidgen.client.errors import InvalidProgram
+from rapidgen.client.pose import Pose
 from rapidgen.client.program import Program, ZoneLike
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.diagnostics import Span, suggest
@@ -49,12 +50,13 @@ def program_of(
             program.wait(step.value)
         else:
             assert step.pose is not None, "lines and arcs have a pose"
+            pose = Pose(*step.pose)
             if not moved:
-                program.move_to(step.pose, speed=step.speed, zone="fine")
+                program.move_to(pose, speed=step.speed, zone="fine")
             elif step.via is not None:
-                program.move_circular(step.via, step.pose, speed=step.speed, zone=stop)
+                program.move_circular(Pose(*step.via), pose, speed=step.speed, zone=stop)
             else:
-                program.move_linear(step.pose, speed=step.speed, zone=stop)
+                program.move_linear(pose, speed=step.speed, zone=stop)
         moved = moved or step.kind in ("joints", "line", "arc")
         spans.append(step.span)
     return program, spans

@@ -149,7 +149,7 @@ def _notes(d: Diagnostic) -> list[str]:
 class DiagnosticError(Exception):
     """A user error that ends an operation.
 
-    The text and the notes are those of the first diagnostic; `diagnostics` has all. Commands show
+    The text and the notes are those of the first error; `diagnostics` has all. Commands show
     only this exception. `exit_code` is 2 for bad input or usage and 1 for a rejection or a failure.
     """
 
@@ -157,14 +157,15 @@ class DiagnosticError(Exception):
         self, diagnostics: Diagnostic | Iterable[Diagnostic], *, exit_code: int = 2
     ) -> None:
         result = (diagnostics,) if isinstance(diagnostics, Diagnostic) else tuple(diagnostics)
-        text = f"{result[0].code}: {result[0].message}" if result else ""
+        errors = [d for d in result if d.severity is Severity.ERROR] or result
+        text = "; ".join(f"{d.code}: {d.message}" for d in errors[:1])
         if len(result) > 1:
             text += f" (and {len(result) - 1} more, see `diagnostics`)"
         super().__init__(text)
         # Python shows these notes below a traceback: callers of the library also see place and
         # help.
         if sys.version_info >= (3, 11):
-            for line in _notes(result[0]) if result else ():
+            for line in [line for d in errors[:1] for line in _notes(d)]:
                 self.add_note(line)
         self.diagnostics: tuple[Diagnostic, ...] = result
         self.exit_code = exit_code

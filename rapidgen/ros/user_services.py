@@ -6,6 +6,7 @@ The package's messages are imported here only; `node` creates what `services` re
 from collections.abc import Callable, Coroutine, Sequence
 from typing import Any, TypeAlias
 
+from rapidgen.client.pose import Pose
 from rapidgen.client.program import Argument, Left, Target
 from rapidgen.ros.operator_services import OperatorServices
 from rapidgen.ros.robot_link import RobotLink
@@ -93,7 +94,7 @@ def _argument(value: Message) -> Argument:
         return str(value.text)
     if value.type == Value.ROBTARGET:
         at, turned = value.pose.position, value.pose.orientation
-        return (at.x, at.y, at.z), (turned.w, turned.x, turned.y, turned.z)
+        return Pose((at.x, at.y, at.z), (turned.w, turned.x, turned.y, turned.z))
     if value.type == Value.JOINTTARGET:
         return [float(joint) for joint in value.joints]
     raise ValueError(f"{value.type} is not a type of rapidgen_interfaces/Value")

@@ -21,11 +21,6 @@ BENT = [0.2, 0.1, 0.1, 0.3, 0.6, -0.2]
 """Joints of an irb120 away from every singularity."""
 
 
-def moved(pose, x=0.0, y=0.0, z=0.0):
-    (a, b, c), q = pose
-    return (a + x, b + y, c + z), q
-
-
 @functools.cache
 def system_of(name, overrides):
     config = load_config(name, overrides=json.loads(overrides))

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from both_clients import Simulated
-from driven import BENT, moved, robot_of, system_of
+from driven import BENT, robot_of, system_of
 
 from rapidgen.client import Program, TrajectoryRefused
 from rapidgen.controller.controller import VirtualController
@@ -33,7 +33,7 @@ def calibrated(tolerance, away=0.004):
 def test_a_calibrated_robot_goes_to_the_pose_by_its_own_geometry():
     with calibrated(5) as (robot, group):
         robot.move_to(BENT, speed=1.0)
-        wanted = moved(robot.pose_of(BENT), y=0.03)
+        wanted = robot.pose_of(BENT).moved(y=0.03)
         robot.run(Program(speed=0.2).move_linear(wanted)).result()
         place, turn = group.kinematics.forward(group.positions())
         assert np.allclose(place, wanted[0], atol=1e-5)
@@ -46,7 +46,7 @@ def test_a_robot_with_another_geometry_is_refused():
         with calibrated(tolerance) as (robot, _):
             robot.move_to(BENT, speed=1.0)
             with pytest.raises(TrajectoryRefused) as refused:
-                robot.run(Program(speed=0.2).move_linear(moved(robot.pose, y=0.03)))
+                robot.run(Program(speed=0.2).move_linear(robot.pose.moved(y=0.03)))
             assert refused.value.reason is Reason.POSE_MISMATCH
 
 
@@ -56,7 +56,7 @@ def test_a_circle_begins_at_the_pose_before_it():
         with calibrated(5, away) as (robot, group):
             robot.move_to(BENT, speed=1.0)
             start = robot.pose_of(BENT)
-            via, end = moved(start, y=0.01, z=0.02), moved(start, y=0.0205, z=0.005)
+            via, end = start.moved(y=0.01, z=0.02), start.moved(y=0.0205, z=0.005)
             program = Program(speed=0.2).move_linear(start, zone="fine")
             robot.run(program.move_circular(via, end, zone="fine")).result()
             assert np.allclose(group.kinematics.forward(group.positions())[0], end[0], atol=1e-5)

@@ -1,7 +1,7 @@
 """`robot.data`: PERS of the cell's program, read and written at the robot."""
 
 import pytest
-from driven import BENT, complaints, driven, moved
+from driven import BENT, complaints, driven
 
 from rapidgen.client import NotSupported, Program, RequestRefused, Robot
 from rapidgen.client.sync import CellData
@@ -71,7 +71,7 @@ def test_data_of_the_program_are_read_and_written():
 def test_data_are_written_while_the_robot_moves_and_it_moves_on():
     with with_data() as (robot, controller):
         robot.move_to(BENT, speed=1.0)
-        execution = robot.run(Program().move_linear(moved(robot.pose, z=0.1)))
+        execution = robot.run(Program().move_linear(robot.pose.moved(z=0.1)))
         robot.sleep(0.5)
         for n in range(20):
             assert robot.write_data("cell:count", n) == n

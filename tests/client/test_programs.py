@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from driven import BENT, complaints, driven, moved
+from driven import BENT, complaints, driven
 
 from rapidgen.axes import frames
 from rapidgen.client import (
@@ -13,6 +13,7 @@ from rapidgen.client import (
     MotionFailed,
     MotionStopped,
     NotSupported,
+    Pose,
     Program,
     Speed,
     Trigger,
@@ -32,8 +33,8 @@ def square(robot, size=0.05, **options):
     """Joints, then a way around on lines and with all axes."""
     corner = robot.pose_of(BENT)
     program = Program(speed=0.3, zone="z10", **options).move_joints(BENT)
-    program.move_linear(moved(corner, y=size)).move_linear(moved(corner, y=size, z=size))
-    return program.move_to(moved(corner, z=size)).move_linear(corner, zone="fine")
+    program.move_linear(corner.moved(y=size)).move_linear(corner.moved(y=size, z=size))
+    return program.move_to(corner.moved(z=size)).move_linear(corner, zone="fine")
 
 
 def test_a_program_goes_from_joints_to_poses():
@@ -57,8 +58,8 @@ def test_basic_has_no_programs():
 
 def test_impossible_instruction_is_reported_with_number():
     with driven() as (robot, _):
-        program = square(robot).move_linear(((5.0, 0.0, 0.5), (1, 0, 0, 0)))
-        program.move_to(((9.0, 0, 0), (1, 0, 0, 0))).move_joints([9.0] * 6)
+        program = square(robot).move_linear(Pose((5.0, 0.0, 0.5)))
+        program.move_to(Pose((9.0, 0, 0))).move_joints([9.0] * 6)
         with pytest.raises(InvalidProgram) as report:
             robot.run(program)
         assert [d.message.partition(":")[0] for d in report.value.diagnostics] == [
@@ -90,7 +91,7 @@ def test_check_line_out_of_reach_is_reported(name, to, code, report):
     config = load_config(name)
     group = Group.of(config, config.groups[0])
     start = group.map.to_controller(BENT)
-    program = Program().move_linear((to, group.poses.pose(start)[1]))
+    program = Program().move_linear(Pose(to, group.poses.pose(start)[1]))
     with pytest.raises(InvalidProgram) as error:
         check_program(program, group, start=start, most=10)
     (fault,) = error.value.diagnostics
@@ -101,7 +102,7 @@ def test_check_line_out_of_reach_is_reported(name, to, code, report):
 def test_a_scara_sets_no_signals_on_the_way_of_a_joint_move():
     config = replace(load_config("irb910sc"), signals=(ExposedSignal("valve", "DO", "write"),))
     group, here = Group.of(config, config.groups[0]), (0.9, -0.3, 0.0, 0.3)
-    target = group.poses.pose(here)
+    target = Pose(*group.poses.pose(here))
     on_the_way = [Trigger.before(0.01, "valve")]
     for program in (
         Program().move_joints(here, triggers=on_the_way),
@@ -119,7 +120,7 @@ def test_single_moves_and_what_lies_where():
         assert robot.move_to(BENT, speed=1.0).deviation < 1e-4
         pose = robot.pose
         assert np.allclose(np.hstack(pose), np.hstack(robot.pose_of(BENT)), atol=1e-5)
-        higher = moved(pose, z=0.03)
+        higher = pose.moved(z=0.03)
         robot.move_linear(higher)
         assert np.allclose(np.hstack(robot.pose), np.hstack(higher), atol=1e-5)
         assert robot.joints_for(pose)[0] == pytest.approx(BENT, abs=1e-4)
@@ -128,10 +129,10 @@ def test_single_moves_and_what_lies_where():
 def test_a_circle_is_one():
     with driven() as (robot, _):
         robot.move_to(BENT, speed=1.0)
-        centre, radius = moved(robot.pose, y=-0.04), 0.04
+        centre, radius = robot.pose.moved(y=-0.04), 0.04
         program = Program(speed=0.1, zone="z5")
-        program.move_circular(moved(centre, z=radius), moved(centre, y=-radius))
-        program.move_circular(moved(centre, z=-radius), moved(centre, y=radius), zone="fine")
+        program.move_circular(centre.moved(z=radius), centre.moved(y=-radius))
+        program.move_circular(centre.moved(z=-radius), centre.moved(y=radius), zone="fine")
         with robot.recording() as recording:
             assert robot.run(program).result().deviation < 1e-4
         poses = [robot.pose_of(joints)[0] for joints in recording.positions]
@@ -148,9 +149,9 @@ def test_a_circle_is_not_too_long(degrees, report):
     config = load_config("irb120")
     group = Group.of(config, config.groups[0])
     start = group.map.to_controller(BENT)
-    pose, turn = group.poses.pose(start), np.radians(degrees)
+    pose, turn = Pose(*group.poses.pose(start)), np.radians(degrees)
     via, end = (
-        moved(pose, y=0.03 * (1 - np.cos(angle)), z=0.03 * np.sin(angle))
+        pose.moved(y=0.03 * (1 - np.cos(angle)), z=0.03 * np.sin(angle))
         for angle in (turn / 2, turn)
     )
     program = Program().move_circular(via, end)
@@ -166,7 +167,7 @@ def test_more_than_the_ring_holds_is_streamed():
         robot.move_to(BENT, speed=1.0)
         program = Program(speed=0.07, zone="z1")
         for n in range(1, 201):
-            program.move_linear(moved(robot.pose_of(BENT), y=0.01 * (n % 7), z=0.01 * (n % 5)))
+            program.move_linear(robot.pose_of(BENT).moved(y=0.01 * (n % 7), z=0.01 * (n % 5)))
         execution = robot.run(program)
         assert execution.mode == "stream"
         result = execution.result()
@@ -229,9 +230,9 @@ def test_signals_are_set_on_the_way():
         start = robot.pose
         valve, flow, level = (watched(robot, controller, n) for n in ("valve", "flow", "level"))
         program = Program(speed=0.1, zone="z5")
-        program.move_linear(moved(start, y=0.1), triggers=pulse("valve", 0.02, 0.05))
+        program.move_linear(start.moved(y=0.1), triggers=pulse("valve", 0.02, 0.05))
         marks = [Trigger.before(0.01, "flow", 0.5), Trigger.ahead(0.2, "level", 7)]
-        program.move_linear(moved(start, y=0.1, z=0.08), triggers=marks, zone="fine")
+        program.move_linear(start.moved(y=0.1, z=0.08), triggers=marks, zone="fine")
         assert robot.run(program).result().deviation < 1e-4
         (on, opened), (off, closed) = valve
         assert (on, off) == (1, 0)
@@ -248,7 +249,7 @@ def test_a_speed_holds_for_a_program_and_no_longer():
     with cell() as (robot, controller):
         robot.move_to(BENT, speed=1.0)
         here = robot.pose
-        program = Program(speed=0.1).move_linear(moved(here, z=0.05))
+        program = Program(speed=0.1).move_linear(here.moved(z=0.05))
         quick = robot.run(program).result().seconds
         execution = robot.run(Program(speed=0.1).move_linear(here))
         robot.set_speed(20)
@@ -291,7 +292,7 @@ def test_waits_and_signals_stand_between_moves():
     with cell() as (robot, controller):
         robot.move_to(BENT, speed=1.0)
         start = robot.pose
-        higher = moved(start, z=0.05)
+        higher = start.moved(z=0.05)
         valve = watched(robot, controller, "valve")
         program = Program(speed=0.2, zone="z10").move_linear(higher).set("valve").wait(1.0)
         program.set("valve", 0).wait_for("part", timeout=5).move_linear(start)
@@ -310,7 +311,7 @@ def test_waits_and_signals_stand_between_moves():
 def test_a_signal_that_does_not_come_ends_a_program():
     with cell() as (robot, _):
         robot.move_to(BENT, speed=1.0)
-        program = Program().wait_for("part", timeout=0.5).move_linear(moved(robot.pose, z=0.05))
+        program = Program().wait_for("part", timeout=0.5).move_linear(robot.pose.moved(z=0.05))
         with pytest.raises(MotionFailed) as report:
             robot.run(program).result()
         assert (report.value.reason, report.value.reached) == (Reason.WAITED, 0)
@@ -335,8 +336,8 @@ def test_another_tool_in_another_object():
         robot.move_to(BENT, speed=1.0)
         (x, y, z), q = robot.pose
         tip = frames.transform(((x, y, z), q), (0.0, 0.0, 0.1))
-        target = (tip[0] - 0.3, tip[1] + 0.05, tip[2] - 0.1), q
-        program = Program(speed=0.2, zone="z10").move_linear(moved(robot.pose, z=0.01))
+        target = Pose((tip[0] - 0.3, tip[1] + 0.05, tip[2] - 0.1), q)
+        program = Program(speed=0.2, zone="z10").move_linear(robot.pose.moved(z=0.01))
         program.use(tool="grip", work_object="table").move_linear(target)
         execution = robot.run(program)
         assert "another tool" in execution.warnings[0].message
@@ -349,30 +350,30 @@ def test_another_tool_in_another_object():
 
 def test_a_tool_and_an_object_by_values():
     """The same ways as with those of the configuration, which the driver knows by name."""
-    grip = UserTool(((0.0, 0.0, 0.1), (1, 0, 0, 0)), 1.0, centre=(0.0, 0.0, 0.05))
-    longer = replace(grip, frame=((0.0, 0.0, 0.15), (1, 0, 0, 0)))
-    table = UserWorkObject(((0.3, 0.0, 0.0), (1, 0, 0, 0)), ((0.0, 0.0, 0.1), (1, 0, 0, 0)))
+    grip = UserTool(Pose((0.0, 0.0, 0.1)), 1.0, centre=(0.0, 0.0, 0.05))
+    longer = replace(grip, frame=Pose((0.0, 0.0, 0.15)))
+    table = UserWorkObject(Pose((0.3, 0.0, 0.0)), Pose((0.0, 0.0, 0.1)))
     with cell() as (robot, controller):
         robot.move_to(BENT, speed=1.0)
         (x, y, z), q = robot.pose
         tip = frames.transform(((x, y, z), q), (0.0, 0.0, 0.1))
-        target = (tip[0] - 0.3, tip[1] + 0.05, tip[2] - 0.1), q
-        program = Program(speed=0.2, zone="z10").move_linear(moved(robot.pose, z=0.01))
+        target = Pose((tip[0] - 0.3, tip[1] + 0.05, tip[2] - 0.1), q)
+        program = Program(speed=0.2, zone="z10").move_linear(robot.pose.moved(z=0.01))
         program.use(tool=grip, work_object=table).move_linear(target)
         assert len(program) == 4
-        program.use(tool="grip", work_object="table").move_linear(moved(target, y=0.02))
+        program.use(tool="grip", work_object="table").move_linear(target.moved(y=0.02))
         program.use(tool=longer).use(tool=grip).move_linear(target)
         execution = robot.run(program)
         assert "does not move" in execution.warnings[0].message
         assert execution.result().deviation < 1e-4
         assert np.allclose(robot.pose[0], (x, y + 0.05, z), atol=1e-5)
         assert not complaints(controller)
-        program = Program().use(tool=longer).move_linear(moved(robot.pose, z=-0.01))
+        program = Program().use(tool=longer).move_linear(robot.pose.moved(z=-0.01))
         robot.run(program.use(tool="")).result()
         assert len(program) == 2
 
 
-UPRIGHT = ((0.0, 0.0, 0.1), (1.0, 0.0, 0.0, 0.0))
+UPRIGHT = Pose((0.0, 0.0, 0.1))
 
 
 @pytest.mark.parametrize(
@@ -385,10 +386,10 @@ UPRIGHT = ((0.0, 0.0, 0.1), (1.0, 0.0, 0.0, 0.0))
         (UserTool(UPRIGHT, 1.0, inertia=(0.0, 1.0)), "moments"),
         (UserTool(UPRIGHT, 1.0, centre=(0.0, 101.0, 0.0)), "centre"),
         (UserTool(UPRIGHT, 1.0, axes=(1.0, 1.0, 0.0, 0.0)), "quaternion"),
-        (UserTool((0.0, 0.0, 0.1), 1.0), "is not a pose"),
+        (UserTool((0.0, 0.0, 0.1), 1.0), "is not a Pose"),
         (UserTool(UPRIGHT, "heavy"), "heavy"),
-        (UserWorkObject(((float("inf"), 0.0, 0.0), UPRIGHT[1])), "finite"),
-        (UserWorkObject(UPRIGHT, ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0))), "object frame"),
+        (UserWorkObject(Pose((float("inf"), 0.0, 0.0))), "finite"),
+        (UserWorkObject(UPRIGHT, Pose((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0))), "object frame"),
     ],
 )
 def test_invalid_tool_values_are_reported(own, report):
@@ -417,8 +418,8 @@ def test_invalid_tool_values_are_reported(own, report):
         Program(zone=-1).move_joints(BENT),
         Program().move_joints([0.0] * 5),
         Program().move_joints([float("nan")] * 6),
-        Program().move_linear(((0.3, 0, 0.5), (2, 0, 0, 0))),
-        Program().move_linear(((float("inf"), 0, 0.5), (1, 0, 0, 0))),
+        Program().move_linear(Pose((0.3, 0, 0.5), (2, 0, 0, 0))),
+        Program().move_linear(Pose((float("inf"), 0, 0.5))),
         Program(),
     ],
 )

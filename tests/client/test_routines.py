@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from driven import BENT, caller_comes_late, complaints, driven, moved, wiggle
+from driven import BENT, caller_comes_late, complaints, driven, wiggle
 
 from rapidgen.client import (
     InvalidProgram,
@@ -199,7 +199,7 @@ def test_texts_and_values_of_functions_come_back():
 def test_a_routine_gets_poses_and_joints():
     with with_routines() as (robot, controller):
         robot.move_to(BENT, speed=1.0)
-        target = moved(robot.pose, y=0.05)
+        target = robot.pose.moved(y=0.05)
         with robot.recording() as recording:
             assert robot.call("reach", target, [0.0] * 6, 1.0) == (3.0,)
         ways = [robot.pose_of(joints)[0] for joints in recording.positions]

@@ -11,6 +11,7 @@ from rapidgen.client import (
     InvalidProgram,
     InvalidTarget,
     InvalidTrajectory,
+    Pose,
     Program,
     Robot,
     Speed,
@@ -44,7 +45,7 @@ WRONG = {
         lambda: Robot("irb120").pose_of("0,0,0,0,0,0"),
         InvalidProgram, "'0,0,0,0,0,0' are not joints", "numbers in rad"),
     "joints too many to be near": (
-        lambda: Robot("irb120").joints_for(((0.3, 0, 0.5), (1, 0, 0, 0)), near=[0] * 7),
+        lambda: Robot("irb120").joints_for(Pose((0.3, 0, 0.5)), near=[0] * 7),
         InvalidProgram, "7 joints, the robot has 6", "joint_1, joint_2"),
     "a cell of a name": (
         lambda: Cell("irb120"), InvalidTarget, "robots by name, not of str", "Cell({"),
@@ -72,7 +73,7 @@ WRONG = {
         InvalidProgram, "None are not joints", "numbers in rad"),
     "a place for a pose": (
         lambda: Program().move_linear((0.3, 0, 0.5)),
-        InvalidProgram, "is not a pose", "quaternion"),
+        InvalidProgram, "is not a Pose", "from_xyzw"),
     "a word for a speed": (
         lambda: Program(speed="fast"), InvalidProgram, "'fast' is not a speed", "m/s of the TCP"),
     "a word in a Speed": (

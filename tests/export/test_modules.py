@@ -5,7 +5,7 @@ from itertools import islice
 
 import pytest
 
-from rapidgen.client import InvalidProgram, Program, Speed, Trajectory, UserTool, Zone, pulse
+from rapidgen.client import InvalidProgram, Pose, Program, Speed, Trajectory, UserTool, Zone, pulse
 from rapidgen.client.core.group import Group
 from rapidgen.config import load_config
 from rapidgen.controller.module_trial import run_module
@@ -37,23 +37,18 @@ def config():
 @pytest.fixture(scope="module")
 def pose(config):
     group = Group.of(config, config.groups[0])
-    return group.poses.pose(group.map.to_controller(BENT))
-
-
-def moved(pose, x=0.0, y=0.0, z=0.0):
-    (a, b, c), q = pose
-    return (a + x, b + y, c + z), q
+    return Pose(*group.poses.pose(group.map.to_controller(BENT)))
 
 
 def everything(pose):
     program = Program(speed=0.2, zone="z10").move_joints(BENT)
-    program.move_linear(moved(pose, y=0.05)).set("glue").wait(0.5).wait_for("part", timeout=2)
+    program.move_linear(pose.moved(y=0.05)).set("glue").wait(0.5).wait_for("part", timeout=2)
     program.move_circular(
-        moved(pose, y=0.05, z=0.03), moved(pose, z=0.06), triggers=pulse("glue", 0.01, 0.02)
+        pose.moved(y=0.05, z=0.03), pose.moved(z=0.06), triggers=pulse("glue", 0.01, 0.02)
     )
     program.allow(singularities=True).call("weld", 7.5, False, pose)
     program.move_to(pose, speed=Speed(0.123, 1.0), zone=Zone.of(0.004))
-    return program.use(tool=UserTool(((0, 0, 0.0), (1, 0, 0, 0)), 0.5)).move_joints(BENT)
+    return program.use(tool=UserTool(Pose((0.0, 0.0, 0.0)), 0.5)).move_joints(BENT)
 
 
 def run(exported):
@@ -95,7 +90,7 @@ def test_shipped_template_needs_no_formatter(config, pose, monkeypatch):
 
 
 def test_predefined_names_only_where_they_fit(config, pose):
-    program = Program(speed=0.1, zone="z10").move_joints(BENT).move_linear(moved(pose, z=0.05))
+    program = Program(speed=0.1, zone="z10").move_joints(BENT).move_linear(pose.moved(z=0.05))
     text = (
         program.move_linear(pose, speed=0.1001, zone=0.010).move_joints(BENT).to_rapid(config).text
     )
@@ -106,7 +101,7 @@ def test_predefined_names_only_where_they_fit(config, pose):
 
 
 def test_program_without_joints_begins_at_the_start(config, pose):
-    exported = Program().move_linear(moved(pose, z=0.02)).to_rapid(config, start=BENT)
+    exported = Program().move_linear(pose.moved(z=0.02)).to_rapid(config, start=BENT)
     first, second = (line for line in exported.text.splitlines() if "Move" in line and ";" in line)
     assert first.strip().startswith("MoveAbsJ [[11.45916,")
     assert second.strip().startswith("MoveL")
@@ -135,7 +130,7 @@ def test_invalid_name_is_rejected(config, options, report):
 
 def test_unreachable_pose_is_rejected_with_its_number(config):
     with pytest.raises(InvalidProgram, match="instruction 1: the pose is not reached"):
-        Program().move_joints(BENT).move_linear(((5, 0, 0), (1, 0, 0, 0))).to_rapid(config)
+        Program().move_joints(BENT).move_linear(Pose((5, 0, 0))).to_rapid(config)
 
 
 def test_template_that_loses_an_instruction_is_rejected(config, tmp_path):
@@ -161,7 +156,7 @@ def test_trajectory_takes_its_time(config):
 
 def test_error_of_the_run_has_the_line_of_the_source(config, pose):
     """A wrong configuration stops the robot: ConfL is on [S4 datasys 3-ConfL]."""
-    exported = Program().move_joints(BENT).move_linear(moved(pose, z=0.02)).to_rapid(config)
+    exported = Program().move_joints(BENT).move_linear(pose.moved(z=0.02)).to_rapid(config)
     wrong = exported.text.replace("[0,0,-1,0]", "[2,2,2,0]")
     assert wrong != exported.text
     broken = replace(

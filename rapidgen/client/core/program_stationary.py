@@ -7,18 +7,17 @@ from collections.abc import Sequence
 from math import isfinite
 from typing import cast
 
-from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import Posture
 from rapidgen.client.core.program_state import ProgramTraversal, operands, unit, within
 from rapidgen.client.core.user_frames import own_tool, own_work_object
 from rapidgen.client.errors import InvalidProgram
+from rapidgen.client.pose import pose_of
 from rapidgen.client.program import (
     Argument,
     ProgramStep,
     Trigger,
     UserTool,
     UserWorkObject,
-    pose_of,
 )
 from rapidgen.config.model import RoutineParameter
 from rapidgen.diagnostics import suggest
@@ -173,9 +172,9 @@ def _reached(
 ) -> tuple[float, ...] | float:
     """Return a pose with the joints that reach it, nearest to the position."""
     try:
-        pose = unit(walk, pose_of(cast("Pose", value)))
+        pose = unit(walk, pose_of(value))
     except InvalidProgram as error:
-        walk.say("RG670", f"{parameter.name}: {error}")
+        walk.say("RG670", f"{parameter.name}: {error.diagnostics[0].message}")
         return 0.0
     robot = walk.frames
     if pose is None or robot is None:

@@ -4,7 +4,8 @@ from math import isfinite, sqrt
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
-from rapidgen.client.program import UserTool, UserWorkObject, pose_of
+from rapidgen.client.pose import pose_of
+from rapidgen.client.program import UserTool, UserWorkObject
 
 _UNIT = 1e-3
 """Tolerance of a quaternion's length."""
@@ -17,8 +18,8 @@ def own_tool(tool: UserTool) -> tuple[tuple[float, ...], Pose]:
 
     Raises ValueError, and InvalidProgram for an invalid pose.
     """
-    frame, load = _frame(tool.frame, "the tool's frame"), (tool.centre, tool.axes)
-    centre = _frame(load, "the tool's centre and axes")
+    frame = _frame(pose_of(tool.frame), "the tool's frame")
+    centre = _frame((tool.centre, tool.axes), "the tool's centre and axes")
     moments = tuple(map(float, tool.inertia))
     mass = float(tool.mass)
     if not 0 < mass <= _HEAVIEST:
@@ -33,13 +34,13 @@ def own_work_object(wobj: UserWorkObject) -> tuple[tuple[float, ...], Pose]:
 
     Raises as `own_tool`.
     """
-    user = _frame(wobj.user_frame, "the user frame")
-    place = _frame(wobj.object_frame, "the object frame")
+    user = _frame(pose_of(wobj.user_frame), "the user frame")
+    place = _frame(pose_of(wobj.object_frame), "the object frame")
     return (*user[0], *user[1], *place[0], *place[1]), frames.compose(user, place)
 
 
 def _frame(given: Pose, what: str) -> Pose:
-    place, turn = pose_of(given)
+    place, turn = given
     size = sqrt(sum(value * value for value in turn))
     if not all(map(isfinite, (*place, size))) or sqrt(sum(v * v for v in place)) > _FARTHEST:
         raise ValueError(f"{what} is at {place}: finite numbers, m, within {_FARTHEST:g} m")

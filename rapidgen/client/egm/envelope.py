@@ -11,8 +11,9 @@ from math import inf, isfinite, sqrt
 from typing import TypeAlias
 
 from rapidgen.axes import frames
-from rapidgen.axes.frames import Pose, Vector
+from rapidgen.axes.frames import Vector
 from rapidgen.client.errors import TargetRejected
+from rapidgen.client.pose import Pose
 from rapidgen.config.model import GroupConfig
 
 Joints: TypeAlias = tuple[float, ...]
@@ -40,7 +41,7 @@ class TcpLimits:
     step: float = 0.05
     turn: float = 0.1
 
-    def check(self, target: Pose, before: Pose) -> Pose:
+    def check(self, target: frames.Pose, before: frames.Pose) -> Pose:
         """Return a target with a unit quaternion. Raises TargetRejected."""
         place, orientation = target
         if len(place) != 3 or len(orientation) != 4:
@@ -55,7 +56,7 @@ class TcpLimits:
         if not 0.99 <= size <= 1.01:
             raise _rejected(f"the quaternion has length {size:.3f}")
         a, b, c, d = (float(value) for value in orientation)
-        result: Pose = ((x, y, z), frames.normalise((a, b, c, d)))
+        result = Pose((x, y, z), frames.normalise((a, b, c, d)))
         step = frames.distance(result[0], before[0])
         if step > self.step:
             raise _rejected(f"the TCP would step by {step:.4f}, allowed is {self.step:g}")

@@ -13,10 +13,10 @@ from math import degrees
 from typing import Literal, TypeAlias
 
 from rapidgen.axes import frames
-from rapidgen.axes.frames import Pose
 from rapidgen.axes.mapping import ABSENT, JointMap
 from rapidgen.client.egm.envelope import Envelope, Joints
 from rapidgen.client.egm.reference import PoseReference, Reference, Twist, rotated
+from rapidgen.client.pose import Pose
 from rapidgen.wire.egm.codec import decode_robot, encode_sensor
 from rapidgen.wire.egm.values import (
     AxisPositions,
@@ -309,7 +309,7 @@ class PartnerExchange:
         reference = self.pose_reference
         if reference is None:
             return SensorMessage(sequence=self.sequence, data=self.data)
-        self._sent_pose = reference.pose
+        self._sent_pose = Pose(*reference.pose)
         (x, y, z), orientation = reference.pose
         linear, angular = reference.speeds[:3], reference.speeds[3:]
         return SensorMessage(
@@ -325,7 +325,7 @@ def _pose(positions: AxisPositions) -> Pose | None:
     if positions.pose is None:
         return None
     x, y, z = positions.pose.position
-    return (x / 1000, y / 1000, z / 1000), positions.pose.orientation
+    return Pose((x / 1000, y / 1000, z / 1000), positions.pose.orientation)
 
 
 def _release(message: RobotMessage) -> tuple[int, int]:
@@ -341,7 +341,7 @@ def _release(message: RobotMessage) -> tuple[int, int]:
 def _moved(pose: Pose, speeds: Twist, time: float) -> Pose:
     """Return a pose that has moved on for a time in s."""
     vx, vy, vz, wx, wy, wz = (v * time for v in speeds)
-    return frames.add(pose[0], (vx, vy, vz)), rotated(pose[1], (wx, wy, wz))
+    return Pose(frames.add(pose[0], (vx, vy, vz)), rotated(pose[1], (wx, wy, wz)))
 
 
 def _at(path: Path, time: float, cycle: float) -> tuple[Joints, float, Joints | None]:

@@ -16,10 +16,10 @@ from typing import TYPE_CHECKING
 
 from rapidgen._compat import Self
 from rapidgen._extras import named
-from rapidgen.axes.frames import Pose
 from rapidgen.axes.mapping import JointMap
 from rapidgen.client.egm.envelope import Envelope, Joints
 from rapidgen.client.errors import NotReady, RobotTimeout, TargetRejected
+from rapidgen.client.pose import Pose
 from rapidgen.config import load_config
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.wire.egm.values import MAX_NUMBERS, RapidData
@@ -195,7 +195,7 @@ class _Session:
 
         Args:
             joints: (k,) positions.
-            pose: TCP, m and a quaternion (w, x, y, z), in the `SensorFrame` of EGMActPose, which
+            pose: TCP in the `SensorFrame` of EGMActPose, which
                 must be the work object of that instruction.
             speeds: (k,) of the joints, or (6,) of the TCP: m/s along and rad/s about x, y and z.
                 The target moves on with them until the next one. Without a target the robot takes
@@ -209,6 +209,8 @@ class _Session:
         given = "joints" if joints is not None else "pose" if pose is not None else self.guidance
         if given != self.guidance:
             raise _other_guidance(given, self.guidance)
+        if pose is not None and not isinstance(pose, Pose):
+            raise _rejected(f"{pose!r} is not a Pose")
         with self._changed:
             state = self._guided()
             limits = self.envelope if self.guidance == "joints" else self.envelope.tcp

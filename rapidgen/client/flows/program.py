@@ -4,7 +4,6 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from rapidgen.axes.frames import Pose
 from rapidgen.client.core.checks import TransferMode
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.motion import CommandedMotion, Result
@@ -21,6 +20,7 @@ from rapidgen.client.errors import (
 from rapidgen.client.flows.effects import INTERRUPTIONS, Flow, Send, Wait
 from rapidgen.client.flows.motion import control_answers, ready, result, stream_accepted, until
 from rapidgen.client.flows.stop import ended, stop
+from rapidgen.client.pose import Pose
 from rapidgen.client.program import SLOW, Argument, Left, Program, SpeedLike, Target
 from rapidgen.config.model import UserRoutine
 from rapidgen.diagnostics import suggest
@@ -81,7 +81,7 @@ def jog(core: Core, /, *, speed: SpeedLike = SLOW, **by: float) -> Flow[Result]:
     if by and not set(by) & set(group.names):
         place, turn = group.poses.pose(group.map.to_controller(state.joints))
         x, y, z = (at + by.get(name, 0.0) for at, name in zip(place, DIRECTIONS, strict=True))
-        moved = move_linear(core, ((x, y, z), turn), speed=speed)
+        moved = move_linear(core, Pose((x, y, z), turn), speed=speed)
     else:
         pairs = zip(group.names, state.joints, strict=True)
         moved = move_to(core, [at + by.get(name, 0.0) for name, at in pairs], speed=speed)
@@ -249,7 +249,7 @@ def _target(core: Core, joints: bool, number: int) -> Flow[Left]:
         for joint, value in zip(group.joints, urdf, strict=True)
         if joint.axis.startswith("eax")
     }
-    return Target(((x, y, z), (w, a, b, c)), (cf1, cf4, cf6, cfx), outer)
+    return Target(Pose((x, y, z), (w, a, b, c)), (cf1, cf4, cf6, cfx), outer)
 
 
 def _read_result(core: Core, parameter: int = 0) -> Flow[messages.ResultReply]:
