@@ -153,6 +153,59 @@ class Targets(MessageModel):
     targets: tuple[SeenTarget, ...]
 
 
+class SeenBody(MessageModel):
+    """A body of collision checks. Its shapes are in the frame of its node."""
+
+    name: str
+    role: Literal["link", "tool", "object", "part", "zone"]
+    node: int
+    """Index in `Collisions.nodes`; -1: the world."""
+    shapes: tuple[SeenShape, ...]
+
+
+class CollisionBodies(MessageModel):
+    """Bodies of collision checks; sent again after a part is gripped or released."""
+
+    type: Literal["bodies"] = "bodies"
+    bodies: tuple[SeenBody, ...]
+    unchecked: tuple[str, ...]
+    """Sentences on what is not checked."""
+
+
+class SeenPair(MessageModel):
+    """Two bodies that touch or are near each other; m, points in the world."""
+
+    bodies: tuple[str, str]
+    distance: float
+    """Negative: depth of the overlap."""
+    clearance: float
+    verdict: Literal["contact", "too near", "near"]
+    points: tuple[tuple[float, float, float], tuple[float, float, float]]
+
+
+class SeenContact(MessageModel):
+    """The first contact since the start of the controller; s, m."""
+
+    time: float
+    bodies: tuple[str, str]
+    point: tuple[float, float, float]
+    depth: float
+    place: str
+    """Move instructions under way; empty: none."""
+    joints: Mapping[str, tuple[float, ...]]
+    """URDF values of each robot at that time, as in `RobotPlace`."""
+
+
+class Collisions(MessageModel):
+    """Distances of bodies nearer than 100 mm, the nearest first."""
+
+    type: Literal["collisions"] = "collisions"
+    nodes: tuple[Pose, ...]
+    """Pose of each node in the world."""
+    near: tuple[SeenPair, ...]
+    first: SeenContact | None
+
+
 class EditorPlace(MessageModel):
     """Place under the cursor of an editor that debugs this simulation."""
 
@@ -391,6 +444,8 @@ ToPage: TypeAlias = (
     Scene
     | Positions
     | Targets
+    | CollisionBodies
+    | Collisions
     | EditorPlace
     | PanelState
     | Log

@@ -8,6 +8,7 @@ import { Link } from "./link";
 import type { Positions, PanelState } from "./messages";
 import type { View, MakePanel } from "./panel";
 import { axesPanel } from "./panels/axes";
+import { collisionsPanel } from "./panels/collisions";
 import { connectionsPanel } from "./panels/connections";
 import { logPanel } from "./panels/log";
 import { pendantPanel } from "./panels/pendant";
@@ -23,7 +24,7 @@ import { Tabs } from "./tabs";
 
 /** Panels in the order of their tabs. */
 const PANELS: readonly MakePanel[] = [
-  pendantPanel, recordingPanel, programPanel, axesPanel, signalsPanel, logPanel, trajectoryPanel, connectionsPanel,
+  pendantPanel, recordingPanel, programPanel, axesPanel, signalsPanel, logPanel, trajectoryPanel, collisionsPanel, connectionsPanel,
 ];
 const KINDS = { simulation: "Simulation", robot: "Real robot, read only", recording: "Recording" };
 const MODES = { auto: "Auto", manual_reduced: "Manual", manual_full: "Manual full speed" };
@@ -111,7 +112,7 @@ if (stage) {
 
 const panels = PANELS.map((make) => make(view));
 const tabs = new Tabs(panels);
-document.body.append(bar, status.element, h("div", { class: "whole" }, main, tabs.border, tabs.element), help.dialog);
+document.body.append(bar, status.element, h("div", { class: "whole" }, main, tabs.element), help.dialog);
 
 let positions: Positions | null = null;
 const page: PageState = {

@@ -30,6 +30,21 @@ export interface Axis {
   readonly speed: number;
 }
 
+/** Bodies of collision checks; sent again after a part is gripped or released. */
+export interface CollisionBodies {
+  readonly type: "bodies";
+  readonly bodies: readonly SeenBody[];
+  readonly unchecked: readonly string[];
+}
+
+/** Distances of bodies nearer than 100 mm, the nearest first. */
+export interface Collisions {
+  readonly type: "collisions";
+  readonly nodes: readonly Pose[];
+  readonly near: readonly SeenPair[];
+  readonly first: SeenContact | null;
+}
+
 /** All sockets in use. */
 export interface Connections {
   readonly type: "connections";
@@ -363,6 +378,14 @@ export interface Seek {
   readonly time: number;
 }
 
+/** A body of collision checks. Its shapes are in the frame of its node. */
+export interface SeenBody {
+  readonly name: string;
+  readonly role: "link" | "tool" | "object" | "part" | "zone";
+  readonly node: number;
+  readonly shapes: readonly SeenShape[];
+}
+
 /** A breakpoint and its line. 0: no line, `doubt` says why. */
 export interface SeenBreakpoint {
   readonly number: number;
@@ -376,6 +399,16 @@ export interface SeenBreakpoint {
   readonly doubt: string;
 }
 
+/** The first contact since the start of the controller; s, m. */
+export interface SeenContact {
+  readonly time: number;
+  readonly bodies: readonly [string, string];
+  readonly point: readonly [number, number, number];
+  readonly depth: number;
+  readonly place: string;
+  readonly joints: Readonly<Record<string, readonly number[]>>;
+}
+
 /** Reason why all tasks are paused. */
 export interface SeenHalt {
   readonly reason: "breakpoint" | "step" | "cursor" | "error" | "pause" | "time";
@@ -383,6 +416,15 @@ export interface SeenHalt {
   readonly place: SeenPlace | null;
   readonly text: string;
   readonly time: number;
+}
+
+/** Two bodies that touch or are near each other; m, points in the world. */
+export interface SeenPair {
+  readonly bodies: readonly [string, string];
+  readonly distance: number;
+  readonly clearance: number;
+  readonly verdict: "contact" | "too near" | "near";
+  readonly points: readonly [readonly [number, number, number], readonly [number, number, number]];
 }
 
 /** Position in a program. `made` is the template's line of a generated one. */
@@ -588,6 +630,6 @@ export interface UploadedTrajectory {
   readonly detail: string;
 }
 
-export type ToPage = AllSignals | Connections | Conversation | Covered | Debugging | Dialogs | EditorPlace | FrameValues | LoadedPrograms | Log | PageReply | PanelState | Playback | Pointers | Positions | Scene | Screen | SignalValues | Targets | UploadedTrajectory;
+export type ToPage = AllSignals | CollisionBodies | Collisions | Connections | Conversation | Covered | Debugging | Dialogs | EditorPlace | FrameValues | LoadedPrograms | Log | PageReply | PanelState | Playback | Pointers | Positions | Scene | Screen | SignalValues | Targets | UploadedTrajectory;
 
 export type Request = AnswerQuestion | Assign | Copy | CountLines | DebugCommand | Evaluate | InjectFault | Jog | JogBy | JogTo | Listen | OpenInEditor | PendantAction | Play | ReadCurves | ReadOrigin | ReadSource | RemoveBreakpoint | RemoveTrajectory | ResetConnection | RunFor | RunTo | RunTrajectory | Seek | SelectFrame | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors | UploadTrajectory;

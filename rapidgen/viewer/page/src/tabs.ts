@@ -12,8 +12,6 @@ const WIDTH = "rapidgen.width";
 
 export class Tabs {
   readonly element: HTMLElement;
-  /** The border between scene and panels. */
-  readonly border: HTMLElement;
   private readonly buttons: HTMLButtonElement[];
   private readonly fields: HTMLFieldSetElement[];
   private readonly views: HTMLElement[];
@@ -34,7 +32,7 @@ export class Tabs {
       class: "view", role: "tabpanel", id: `panel-${panel.id}`, "aria-labelledby": `tab-${panel.id}`, tabindex: 0, hidden: true,
     }, this.fields[i] ?? null));
     this.element = h("aside", { "aria-label": "Panels" }, list, ...this.views);
-    this.border = this.makeBorder();
+    this.element.prepend(this.makeBorder());
     const first = panels[0];
     if (first) this.show(first);
   }

@@ -21,7 +21,7 @@ export const pendantPanel: MakePanel = (view) => {
   const motors = new Choice<"motors-on" | "motors-off">("Motors",
     [["motors-on", "On"], ["motors-off", "Off"]], (action) => order({ do: "act", action }));
 
-  const speed = h("input", { type: "range", min: 0, max: 100, step: 1, id: "speed" });
+  const speed = h("input", { type: "range", min: 0, max: 100, step: 1, id: "speed", "aria-label": "Speed" });
   const speedText = h("output", { for: "speed" });
   let sliding = false;
   const speeds = new RequestState<number>(view, (now) => {
@@ -59,7 +59,7 @@ export const pendantPanel: MakePanel = (view) => {
   pace.addEventListener("change", () => void paces.ask({ do: "pace", value: Number(pace.value) }));
 
   const tasks = h("tbody", {});
-  const rows = h("pre", { class: "screen", "aria-label": "Operator window", tabindex: 0 });
+  const rows = h("pre", { class: "screen", role: "log", "aria-label": "Operator window", tabindex: 0 });
   const dialogs = h("div", { class: "dialogs", "aria-live": "polite" });
   const questions = new Rows<Dialog>(dialogs, (question) => JSON.stringify(question), (question) => ({
     element: dialog(question, (value) => order({ do: "answer", number: question.number, value })),

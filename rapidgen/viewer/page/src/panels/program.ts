@@ -114,7 +114,7 @@ class ProgramPanel {
   private readonly variables = h("table", { class: "values" });
   private readonly watch = h("table", { class: "values" });
   private readonly points: Points;
-  private readonly output = h("pre", { class: "screen", "aria-label": "Log points", tabindex: 0 });
+  private readonly output = h("pre", { class: "screen", role: "log", "aria-label": "Log points", tabindex: 0 });
 
   constructor(private readonly view: View) {
     const { link } = view;

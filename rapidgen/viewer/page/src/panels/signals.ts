@@ -44,11 +44,12 @@ export const signalsPanel: MakePanel = (view) => {
 class SignalRow {
   readonly element: HTMLElement;
   private readonly control: HTMLButtonElement | Field;
+  private readonly label: string;
   private now = 0;
 
   constructor(signal: ShownSignal, commands: boolean, view: View) {
     const set = (value: number): Promise<boolean> => view.order({ do: "signal", name: signal.name, value });
-    const label = `Set ${signal.name}`;
+    const label = this.label = `Set ${signal.name}`;
     this.control = signal.largest === 1
       ? h("button", { type: "button", "aria-label": label, class: "lamp", disabled: !commands, onclick: () => void set(this.now ? 0 : 1) })
       : new Field({ label, disabled: !commands, commit: set });
@@ -62,6 +63,7 @@ class SignalRow {
     if (this.control instanceof HTMLButtonElement) {
       say(this.control, String(value));
       this.control.setAttribute("aria-pressed", String(value !== 0));
+      this.control.setAttribute("aria-label", `${this.label}, now ${value}`);
     } else {
       this.control.show(String(value));
     }

@@ -194,7 +194,7 @@ export class SourceEditor {
       EditorView.updateListener.of((update) => {
         if (update.selectionSet) actions.moved(update.state.doc.lineAt(update.state.selection.main.head).number);
       }),
-      EditorView.contentAttributes.of({ "aria-label": "Source", "aria-readonly": "true" }),
+      EditorView.contentAttributes.of({ "aria-label": "Source", "aria-readonly": "true", tabindex: "0" }),
       keymap.of([{ key: "F9", run: () => {
         actions.toggle(this.line);
         return true;

@@ -12,17 +12,16 @@ interface Label {
 
 export class Labels {
   readonly element = h("div", { class: "labels", "aria-hidden": "true" });
-  private labels: Label[] = [];
+  private readonly labels = new Map<string, Label[]>();
 
-  /** Replace the labels; `at` returns the position of one when it is drawn. */
-  set(names: readonly { text: string; at: () => THREE.Vector3 }[]): void {
-    this.labels = names.map(({ text, at }) => ({ element: h("span", {}, text), at }));
-    this.element.replaceChildren(...this.labels.map((label) => label.element));
+  /** Replace the labels of a kind; `at` returns the position of one when it is drawn. */
+  set(kind: string, names: readonly { text: string; at: () => THREE.Vector3 }[]): void {
+    this.labels.set(kind, names.map(({ text, at }) => ({ element: h("span", {}, text), at })));
+    this.element.replaceChildren(...[...this.labels.values()].flat().map((label) => label.element));
   }
 
   draw(camera: THREE.Camera, width: number, height: number): void {
-    if (this.element.hidden) return;
-    for (const { element, at } of this.labels) {
+    for (const { element, at } of [...this.labels.values()].flat()) {
       const seen = at().project(camera);
       const inside = Math.abs(seen.x) < 1 && Math.abs(seen.y) < 1 && seen.z < 1;
       element.hidden = !inside;

@@ -21,11 +21,15 @@ export class Robot {
   private readonly body: Body;
   private readonly ghost: Body;
   private readonly shade: THREE.MeshLambertMaterial;
+  private readonly meshes: Meshes;
+  /** The robot at the first contact, once it is shown. */
+  private met: Body | null = null;
   ghosted = true;
   framed = true;
   state: RobotPlace | null = null;
 
   constructor(readonly group: SeenRobot, private readonly palette: Palette, meshes: Meshes) {
+    this.meshes = meshes;
     this.shade = new THREE.MeshLambertMaterial({
       color: palette.accent, transparent: true, opacity: 0.22, depthWrite: false,
     });
@@ -68,6 +72,26 @@ export class Robot {
     this.warn(state);
     this.root.updateMatrixWorld(true);
     this.trail.add(this.root.worldToLocal(this.tcp.getWorldPosition(new THREE.Vector3())));
+  }
+
+  /** Show the robot in red where a contact was; null: hide it. */
+  meet(joints: readonly number[] | null): void {
+    if (!joints) {
+      if (this.met) this.met.urdf.visible = false;
+      return;
+    }
+    if (!this.met) {
+      const red = new THREE.MeshLambertMaterial({ color: this.palette.limit, transparent: true, opacity: 0.3, depthWrite: false });
+      this.met = new Body(this.group.urdf, this.meshes, this.palette, red);
+      this.root.add(this.met.urdf);
+    }
+    this.met.urdf.visible = true;
+    this.set(this.met.urdf, joints);
+  }
+
+  /** For tests: whether the robot at the first contact is shown. */
+  get isMet(): boolean {
+    return this.met?.urdf.visible === true;
   }
 
   private set(robot: URDFRobot, values: readonly number[]): void {

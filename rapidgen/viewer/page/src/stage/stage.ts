@@ -2,8 +2,9 @@
 
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import type { Scene, Positions, SeenTarget, SeenThing } from "../messages";
+import type { CollisionBodies, Collisions, Scene, SeenContact, Positions, SeenTarget, SeenThing } from "../messages";
 import { Grip, type GripMode, type Wanted } from "./grip";
+import { CollisionMarks } from "./collisions";
 import { Labels, TargetMarks, drawnWay } from "./marks";
 import { Meshes } from "./meshes";
 import { palette } from "./palette";
@@ -41,6 +42,9 @@ export class Stage {
   private targets: readonly SeenTarget[] = [];
   private marks: TargetMarks[] = [];
   private readonly layers = { ...LAYERS };
+  readonly collisions: CollisionMarks;
+  private contact: SeenContact | null = null;
+  private contactShown = false;
   private readonly grip: Grip;
   /** Executes a drag of the handle. */
   onwanted: Wanted = () => Promise.resolve();
@@ -67,9 +71,10 @@ export class Stage {
     this.controls.addEventListener("start", () => { this.touched = true; });
     this.grip = new Grip(this.camera, this.element, this.space,
       (...wanted) => this.onwanted(...wanted), () => this.draw(), (free) => { this.controls.enabled = free; });
+    this.collisions = new CollisionMarks(this.palette);
     const sun = new THREE.DirectionalLight("#ffffff", 1.9);
     sun.position.set(2, -3, 4);
-    this.space.add(new THREE.HemisphereLight("#ffffff", "#8a9096", 1.6), sun, this.floor, this.way, this.things, this.zones);
+    this.space.add(new THREE.HemisphereLight("#ffffff", "#8a9096", 1.6), sun, this.floor, this.way, this.things, this.zones, this.collisions.root);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint());
     this.paint();
   }
@@ -82,6 +87,7 @@ export class Stage {
     const grid = new THREE.GridHelper(6, 24, this.palette.grid, this.palette.grid);
     grid.rotation.x = Math.PI / 2;
     this.floor.add(grid, axes(0.18, this.palette));
+    this.collisions.paint();
     for (const robot of this.robots.values()) robot.paint();
     this.aim(this.targets);
     this.draw();
@@ -209,7 +215,6 @@ export class Stage {
       robot.root.add(marks.root);
       this.marks.push(marks);
     }
-    this.labels.set(this.marks.flatMap((marks) => marks.names()));
     this.showLayers();
   }
 
@@ -222,9 +227,13 @@ export class Stage {
   private showLayers(): void {
     const { layers } = this;
     for (const marks of this.marks) marks.root.visible = layers.targets;
-    this.labels.element.hidden = !layers.targets;
+    this.labels.set("targets", layers.targets ? this.marks.flatMap((marks) => marks.names()) : []);
     this.things.visible = layers.objects;
     this.zones.visible = layers.zones;
+    this.collisions.all = layers.shapes;
+    this.collisions.distances = layers.distances;
+    this.collisions.update();
+    this.labels.set("distances", this.collisions.labels());
     this.way.visible = layers.path;
     for (const tool of this.tools) tool.visible = layers.tools;
     for (const robot of this.robots.values()) {
@@ -234,6 +243,33 @@ export class Stage {
       robot.trail.line.visible = layers.trail;
       if (robot.state) robot.show(robot.state);
     }
+    this.draw();
+  }
+
+  /** Replace the bodies of collision checks. */
+  collide(bodies: Pick<CollisionBodies, "bodies">): void {
+    this.collisions.build(bodies);
+    this.showLayers();
+  }
+
+  /** Show distances of the bodies. */
+  clear(now: Pick<Collisions, "nodes" | "near">): void {
+    this.collisions.show(now);
+    this.labels.set("distances", this.collisions.labels());
+    this.draw();
+  }
+
+  /** Take the first contact; null: none. */
+  meet(contact: SeenContact | null): void {
+    const same = contact?.time === this.contact?.time;
+    this.contact = contact;
+    if (!same || !contact) this.showContact(this.contactShown);
+  }
+
+  /** Show or hide the robots where the first contact was. */
+  showContact(shown: boolean): void {
+    this.contactShown = shown;
+    for (const [name, robot] of this.robots) robot.meet(shown ? this.contact?.joints[name] ?? null : null);
     this.draw();
   }
 
