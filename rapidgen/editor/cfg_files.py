@@ -27,6 +27,8 @@ _NAMED: Final = re.compile(r'-[Nn]ame\s+"([^"]{1,64})"')
 _TITLE: Final = re.compile(r"\[(\w+) (\w+)\] (.*)")
 _ROW: Final = re.compile(r"(\w+)(?: \[([^\]]+)\])?(?: \(([^)]+)\))?: (.*)")
 _COUNTED: Final = re.compile(r"(.*?)(\d+)(\w*)")
+_USE: Final = re.compile(r"use_([a-z_]+?)(?:_\d)?")
+"""Attributes with the name of an instance of another type, in all of MOC [backups]."""
 _MOST: Final = 1_000_000
 """Characters of a file that is looked at."""
 
@@ -98,6 +100,8 @@ class _Place:
     release: int
     section: str
     instance: Sequence[str]
+    sections: frozenset[str]
+    """All sections of the file."""
 
 
 def _place(lines: Sequence[str], number: int) -> _Place:
@@ -113,7 +117,8 @@ def _place(lines: Sequence[str], number: int) -> _Place:
         first -= 1
     while last + 1 < len(lines) and lines[last].rstrip().endswith("\\"):
         last += 1
-    return _Place(domain, release, section, lines[first : last + 1])
+    sections = frozenset(m[1].upper() for line in lines if (m := _SECTION.match(line)))
+    return _Place(domain, release, section, lines[first : last + 1], sections)
 
 
 def _lines(text: str) -> list[str]:
@@ -161,7 +166,7 @@ def _key(place: _Place, kind: InstanceType | None, name: str) -> Key | None:
     from rapidgen.system.cfg_defaults import default_of
 
     known = _attribute(kind, name) if kind is not None else None
-    lines = [known.text] if known is not None else []
+    lines = [known.text] if known is not None else _by_convention(place, name)
     if known is not None and known.unit:
         lines.append(f"Unit: {known.unit}.")
     if known is not None and known.range:
@@ -176,6 +181,16 @@ def _key(place: _Place, kind: InstanceType | None, name: str) -> Key | None:
         return None
     # Controllers write names in the case that the file has; the file's own is kept.
     return Key(name, "  \n".join([f"Attribute of {place.section}.", *lines]), insert=f"-{name} ")
+
+
+def _by_convention(place: _Place, name: str) -> list[str]:
+    """Return what the name of an attribute says: `name`, and in MOC `use_arm` and its kind."""
+    if name.lower() == "name":
+        return ["Name of the instance."]
+    match = _USE.fullmatch(name.lower()) if place.domain == "MOC" else None
+    if match is not None and match[1].upper() in place.sections:
+        return [f"Name of the {match[1].upper()} that this instance uses."]
+    return []
 
 
 def _words(place: _Place, attribute: str) -> dict[str, tuple[str, str]]:

@@ -122,6 +122,10 @@ def test_attributes_of_cfg_files_have_meaning_unit_range_and_default():
     assert "Default: `Default`" in cfg_key(EIO, "-Acc|ess")
     assert "Unit: rad or m." in cfg_key(MOC, "-upper_|joint_bound")
     assert "first axis" in cfg_key(MOC, "-use_joint|_4")
+    assert "Name of the instance." in cfg_key(MOC.replace("ARM:", "CABLE:"), '-na|me "rob1_1"')
+    uses = MOC.replace("-odd 3", '-use_robot "ROB_1" -use_cable "c"')
+    assert "Name of the ROBOT that" in cfg_key(uses, "-use_ro|bot")
+    assert cfg_key(uses, "-use_ca|ble") == ""
     assert "Range: 0.005 to 10." in cfg_key(MOC, "-ramp|_time")
     assert "Default: `0.5` (source: manual)." in cfg_key(MOC, "-ramp|_time")
 
