@@ -91,7 +91,7 @@ def trial(folder: Path, rng: np.random.Generator, counts: dict[str, float]) -> N
     booted = load_target([str(folder / "trial.mod")], BootOptions(cell=str(folder / "cell.yaml")))
     assert booted.cell is not None
     with VirtualController.boot(booted, cycle="once", autostart=False) as controller:
-        watch = CollisionWatch(controller, booted.cell, booted.described)
+        watch = CollisionWatch(controller, booted.collisions("error"))
         controller.start_program()
         controller.run(max_time=120)
         began = time.process_time()

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from rapidgen.controller.cell_setup import InferenceLog
     from rapidgen.controller.inference.answers import Answer
     from rapidgen.controller.inference.cell import UndeclaredName
+    from rapidgen.rapid.switches import Switches
     from rapidgen.system.project import Project
 
 _UNKNOWN_NAMES = frozenset(("RG301", "RG302", "RG303"))
@@ -120,6 +121,21 @@ def _folders(folder: Path) -> list[Path]:
         return [one for one in inside if one.is_dir()][:_WIDTH]
     except OSError:
         return []
+
+
+def assumptions(text: str) -> "Switches":
+    """Return the switches of `--assume`. Raises DiagnosticError RG901."""
+    from dataclasses import fields
+
+    from rapidgen.rapid.switches import Switches, parse_switches
+
+    try:
+        return parse_switches(text)
+    except ValueError as fault:
+        names = ", ".join(switch.name for switch in fields(Switches))
+        raise refusal(
+            "RG901", None, f"--assume: {fault}", f"write SWITCH=VALUE; switches: {names}"
+        ) from fault
 
 
 def _describes_itself(targets: Sequence[str]) -> bool:

@@ -31,8 +31,7 @@ def collision_summary(report: "CollisionReport") -> str:
         least = "no pair is nearer than 100 mm"
     timings = [_timing_text(timing) for timing in report.timings]
     lines = [
-        f"collisions: {len(report.world.scene.pairs)} pairs, {report.proof.postures} postures; "
-        f"{least}",
+        f"collisions: {len(report.world.scene.pairs)} pairs, {report.postures} postures; {least}",
         *timings,
         *(f"{one} - {other} may touch: {why}" for (one, other), why in _reasons(report)),
         *(f"not checked: {text}" for text in report.world.unchecked),
@@ -140,14 +139,14 @@ def _robot_of(
 def _of_program(files: Sequence[Path], cell_file: Path) -> "CollisionReport":
     """Run a program once on the virtual clock, and check its planned path."""
     from rapidgen.controller.boot_targets import BootOptions, load_target
-    from rapidgen.controller.collisions import CollisionWatch
+    from rapidgen.controller.collisions import CollisionSetup, CollisionWatch
     from rapidgen.controller.controller import VirtualController
     from rapidgen.controller.inference.restarts import run_past_stops
 
     booted = load_target(list(map(str, files)), BootOptions(cell=str(cell_file)))
     assert booted.cell is not None
     with VirtualController.boot(booted, cycle="once", autostart=False) as controller:
-        watch = CollisionWatch(controller, booted.cell, booted.described)
+        watch = CollisionWatch(controller, CollisionSetup(booted.cell, booted.described))
         controller.start_program()
         finished = run_past_stops(controller, max_time=3600.0, max_statements=100_000_000)
         faults = [task for task in controller.tasks.values() if task.fault is not None]

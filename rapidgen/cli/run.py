@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from rapidgen.controller.boot_targets import Bootable
     from rapidgen.controller.collisions import CollisionWatch
     from rapidgen.controller.controller import VirtualController
-    from rapidgen.rapid.switches import Switches
     from rapidgen.runtime.errors import FatalError
 
 
@@ -125,7 +124,7 @@ def run(
     exit code is 1 after an error in a task, at a deadlock and at a limit of time, statements or
     memory.
     """
-    from rapidgen.cli.boot_options import inference_report, load_boot_target
+    from rapidgen.cli.boot_options import assumptions, inference_report, load_boot_target
     from rapidgen.cli.run_outputs import Observed, Outputs, read_earlier, recording
     from rapidgen.controller.controller import VirtualController
     from rapidgen.machine.operator import read_answers
@@ -166,7 +165,7 @@ def run(
             schedule="round-robin" if schedule == "round-robin" else "random",
             switch_at_pers=schedule == "pers",
             tracing=requested.tracing,
-            dialect=_assumptions(assume),
+            dialect=assumptions(assume),
             answers=read_answers(answers) if answers is not None else None,
             autostart=False,
         ) as controller,
@@ -180,7 +179,7 @@ def run(
             controller.start_program()
             wrong = _run(controller, max_time, max_statements, cell)
         if watch is not None:
-            wrong += _collisions(watch, collisions or "error")
+            wrong += _collisions(watch)
         sys.stderr.write(render(_event_warnings(controller)))
         sys.stderr.write(inference_report(controller.guessed))
         observed.write()
@@ -215,20 +214,6 @@ def _no_configuration(files: list[Path]) -> None:
                 f"{file} is a configuration, not RAPID",
                 f"`rapidgen sim {shlex.quote(str(file))}` boots it; `run` takes the built folder",
             )
-
-
-def _assumptions(text: str) -> "Switches":
-    from dataclasses import fields
-
-    from rapidgen.rapid.switches import Switches, parse_switches
-
-    try:
-        return parse_switches(text)
-    except ValueError as fault:
-        names = ", ".join(switch.name for switch in fields(Switches))
-        raise refusal(
-            "RG901", None, f"--assume: {fault}", f"write SWITCH=VALUE; switches: {names}"
-        ) from fault
 
 
 def _run(
@@ -276,31 +261,21 @@ def _watch(
     chosen: Literal["error", "warn", "off"] | None,
 ) -> "CollisionWatch | None":
     """Return what records the robots for a collision check; None without a check (RG901)."""
-    cell = booted.cell
-    if chosen == "off" or (chosen is None and (cell is None or cell.collision is None)):
+    setup = booted.collisions(chosen)
+    if setup is None:
         return None
-    if cell is None:
-        raise refusal(
-            "RG901",
-            None,
-            "--collisions needs a cell file",
-            "add --cell FILE: `rapidgen schema --cell`",
-        )
     from rapidgen.controller.collisions import CollisionWatch
 
-    watch = CollisionWatch(controller, cell, booted.described)
+    watch = CollisionWatch(controller, setup)
     sys.stderr.write(render(watch.world.diagnostics))
     return watch
 
 
-def _collisions(
-    watch: "CollisionWatch", chosen: Literal["error", "warn", "off"]
-) -> list[Diagnostic]:
+def _collisions(watch: "CollisionWatch") -> list[Diagnostic]:
     """Print warnings and what was not checked; return the errors."""
     from rapidgen.cli.collisions import collision_summary
 
-    severity = Severity.ERROR if chosen == "error" else Severity.WARNING
-    report = watch.report(severity)
+    report = watch.report()
     sys.stderr.write(render(d for d in report.diagnostics if d.severity is not Severity.ERROR))
     sys.stderr.write(collision_summary(report))
     return [d for d in report.diagnostics if d.severity is Severity.ERROR]

@@ -113,6 +113,21 @@ def sim(
         list[str] | None,
         typer.Option(help="RAPID expression to record; repeatable.", metavar="TASK:EXPRESSION"),
     ] = None,
+    collisions: Annotated[
+        Literal["error", "warn", "off"] | None,
+        typer.Option(
+            "--collisions",
+            help="Stop at a collision in the cell, or log it; default: error if the cell file has "
+            "`collision:`.",
+            show_default=False,
+        ),
+    ] = None,
+    assume: Annotated[
+        str,
+        typer.Option(
+            "--assume", metavar="SWITCH=VALUE,...", help="Assumptions about the controller."
+        ),
+    ] = "",
     answers: Annotated[
         Path | None,
         typer.Option(help="Operator's answers: `rapidgen explain RG420`.", metavar="FILE.yaml"),
@@ -130,7 +145,7 @@ def sim(
     each group, the control socket with its token, and the file servers with their login. Operator
     messages and the event log go to stderr. Ctrl-C ends it. Other commands find it by `--to sim`.
     """
-    from rapidgen.cli.boot_options import load_boot_target
+    from rapidgen.cli.boot_options import assumptions, load_boot_target
     from rapidgen.cli.run_outputs import Outputs, observing, read_appearance
     from rapidgen.controller.faults import FaultPlan, read_plan
     from rapidgen.controller.runner import ControllerRunner
@@ -161,6 +176,7 @@ def sim(
     partners = {**result.surroundings.partners, **_partners(egm or ())}
     if ports is None and result.driver:
         _check_ports(result, host, port_offset)
+    detection = result.collisions(collisions)
     look = read_appearance(result) if view or record is not None else None
     with ControllerRunner.boot(
         result,
@@ -171,9 +187,13 @@ def sim(
         faults=plan,
         answers=script,
         tracing=requested.tracing,
+        dialect=assumptions(assume),
+        detection=detection,
         autostart=not motors_off,
     ) as runner:
         _print_notes(runner.controller.diagnostics)
+        if runner.controller.collisions is not None:
+            _print_notes(runner.controller.collisions.world.diagnostics)
         if motors_off:
             _start_background_tasks(runner.controller)
         with (

@@ -5,13 +5,14 @@ The three results of the proof stay apart: RG820 a contact, RG821 too near, RG82
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
 from rapidgen.collision.path import Path
 from rapidgen.collision.proof import Proof, Violation, prove
 from rapidgen.collision.scene import Scene
-from rapidgen.collision.shapes import Array
+from rapidgen.collision.shapes import Array, Indices
 from rapidgen.collision.timing import ShiftViolation, Timing, Together, prove_timing
 from rapidgen.collision.world import World
 from rapidgen.diagnostics import Diagnostic, Severity, Span, error
@@ -24,6 +25,7 @@ _CHUNK = 128
 _MOST = 20
 """Findings of one check, the earliest ones."""
 _CODES = {"contact": "RG820", "too near": "RG821", "not proved": "RG822"}
+Point: TypeAlias = tuple[float, float, float]
 PlaceOf = Callable[[float], tuple[str, Span | None]]
 """Text and place in a file of a position on the path."""
 
@@ -75,25 +77,45 @@ class Clearances:
 
 
 @dataclass(frozen=True, eq=False)
-class CollisionReport:
-    """Result of a check: findings, and what was not checked."""
+class Stage:
+    """A part of a path in one world: a grip or a release begins the next stage.
+
+    All stages of a check have the same bodies and pairs, in the same order.
+    """
 
     world: World
     path: Path
     proof: Proof
+
+
+@dataclass(frozen=True, eq=False)
+class CollisionReport:
+    """Result of a check: findings, and what was not checked."""
+
+    stages: tuple[Stage, ...]
     diagnostics: tuple[Diagnostic, ...]
     timings: tuple[Timing, ...] = ()
     """Of each two robots that move, unless they keep one clock."""
 
     @property
+    def world(self) -> World:
+        """Return the world at the end of the path."""
+        return self.stages[-1].world
+
+    @property
     def is_free(self) -> bool:
         """True if all checked pairs keep their clearances, which is proved."""
-        return self.proof.is_free and not any(timing.violations for timing in self.timings)
+        free = all(stage.proof.is_free for stage in self.stages)
+        return free and not any(timing.violations for timing in self.timings)
+
+    @property
+    def postures(self) -> int:
+        """Return the number of postures of the proofs."""
+        return sum(stage.proof.postures for stage in self.stages)
 
     def clearances(self, samples: int = _SAMPLES) -> Clearances:
         """Return distances at evenly spaced times."""
-        times = np.linspace(self.path.times[0], self.path.times[-1], samples)
-        return clearances(self.world.scene, self.path, times)
+        return stage_clearances([(stage.world, stage.path) for stage in self.stages], samples)
 
     def as_json(self) -> list[Mapping[str, object]]:
         """Return the violations as data: m, s; names, point, verdict; normal or times.
@@ -118,13 +140,14 @@ class CollisionReport:
             {
                 "verdict": v.verdict,
                 "time": v.time,
-                "bodies": list(scene.names(v.pair)),
+                "bodies": list(stage.world.scene.names(v.pair)),
                 "distance": v.distance,
                 "point": list(v.point),
                 "normal": list(v.normal),
-                "clearance": scene.pairs[v.pair].clearance,
+                "clearance": stage.world.scene.pairs[v.pair].clearance,
             }
-            for v in self.proof.violations
+            for stage in self.stages
+            for v in stage.proof.violations
         ]
         return found + shifted
 
@@ -141,12 +164,28 @@ def check_path(
     `together` are intervals in which robots share a clock. Raises ModuleNotFoundError for hulls and
     cylinders without coal.
     """
-    proof = prove(path, world.scene)
-    found = [
-        _finding(world, path, violation, place_of, severity)
-        for violation in proof.violations[:_MOST]
-    ]
-    left = len(proof.violations) - _MOST
+    return check_stages([(world, path, place_of)], severity, together)
+
+
+def check_stages(
+    stages: Sequence[tuple[World, Path, PlaceOf | None]],
+    severity: Severity = Severity.ERROR,
+    together: Sequence[Together] = (),
+) -> CollisionReport:
+    """Prove the stages of a path, and describe each violation: see `check_path`.
+
+    Time shifts of two robots are proved within each stage.
+    """
+    proofs: list[Stage] = []
+    found: list[Diagnostic] = []
+    for world, path, place_of in stages:
+        proof = prove(path, world.scene)
+        proofs.append(Stage(world, path, proof))
+        found += [
+            _finding(world, path, violation, place_of, severity)
+            for violation in proof.violations[: max(0, _MOST - len(found))]
+        ]
+    left = sum(len(stage.proof.violations) for stage in proofs) - len(found)
     if left > 0:
         found[-1] = error(
             found[-1].code,
@@ -156,18 +195,19 @@ def check_path(
             notes=(*found[-1].notes, f"and {left} further pairs"),
             severity=severity,
         )
-    timings: tuple[Timing, ...] = ()
-    if len(world.columns) > 1 and world.time_tolerance != 0:
-        known = frozenset(violation.pair for violation in proof.violations)
-        timings = prove_timing(
-            path, world.scene, world.columns, world.time_tolerance, together, known
-        )
-        for timing in timings:
+    timings: list[Timing] = []
+    for stage, (world, path, place_of) in zip(proofs, stages, strict=True):
+        if len(world.columns) < 2 or world.time_tolerance == 0:
+            continue
+        known = frozenset(violation.pair for violation in stage.proof.violations)
+        own = prove_timing(path, world.scene, world.columns, world.time_tolerance, together, known)
+        for timing in own:
             found += [
                 _shift_finding(world, path, v, timing, place_of, severity)
                 for v in timing.violations[:_MOST]
             ]
-    return CollisionReport(world, path, proof, tuple(found), timings)
+        timings += own
+    return CollisionReport(tuple(proofs), tuple(found), tuple(timings))
 
 
 def _shift_finding(
@@ -267,18 +307,68 @@ def _deepest(scene: Scene, path: Path, v: Violation) -> tuple[float, float]:
 
 
 def clearances(scene: Scene, path: Path, times: Array, limit: float = LIMIT) -> Clearances:
-    """Return the distances of all pairs at times (n,), up to `limit` m."""
+    """Return the distances of all checked pairs at times (n,), up to `limit` m."""
     result = np.full((len(times), len(scene.pairs)), np.inf)
     u = np.interp(times, path.times, np.arange(path.last + 1))
     count = len(scene.first)
     for low in range(0, len(u) if count else 0, _CHUNK):
         rows = u[low : low + _CHUNK]
-        places = scene.places(*scene.tree.poses(path.at(rows))[:2])
-        postures = np.repeat(np.arange(len(rows)), count)
-        pairs = np.tile(np.arange(count), len(rows))
-        near = np.flatnonzero(scene.sphere_gaps(pairs, postures, *places) < limit)
-        postures, pairs = postures[near], pairs[near]
-        far = scene.distances(pairs, postures, *places)[0]
+        postures, pairs, far, _ = _near(scene, path.at(rows), limit)
         np.minimum.at(result, (postures + low, scene.pair_of[pairs]), far)
     result[result > limit] = np.inf
     return Clearances(scene, times, result, limit)
+
+
+def stage_clearances(stages: Sequence[tuple[World, Path]], samples: int) -> Clearances:
+    """Return the distances along the stages of a path at `samples` evenly spaced times."""
+    first, last = stages[0][1].times[0], stages[-1][1].times[-1]
+    times = np.linspace(first, last, samples)
+    parts = []
+    for number, (world, path) in enumerate(stages):
+        is_last = number == len(stages) - 1
+        end = np.inf if is_last else path.times[-1]
+        own = times[(times >= path.times[0]) & (times < end)]
+        parts.append(clearances(world.scene, path, own))
+    return Clearances(
+        stages[-1][0].scene,
+        np.concatenate([part.times for part in parts]),
+        np.concatenate([part.distances for part in parts]),
+    )
+
+
+def _near(
+    scene: Scene, values: Array, limit: float
+) -> tuple[Indices, Indices, Array, tuple[Array, Array]]:
+    """Return postures, pairs of shapes, distances and nearest points of pairs within a limit.
+
+    Bounding spheres leave out most others; the rest is not left out.
+    """
+    places = scene.places(*scene.tree.poses(values)[:2])
+    count = len(scene.first)
+    postures = np.repeat(np.arange(len(values)), count)
+    pairs = np.tile(np.arange(count), len(values))
+    is_near = scene.sphere_gaps(pairs, postures, *places) <= limit
+    near = np.flatnonzero(is_near & (scene.clearance[pairs] > -np.inf))
+    postures, pairs = postures[near], pairs[near]
+    far, first, second = scene.distances(pairs, postures, *places)
+    return postures, pairs, far, (first, second)
+
+
+def near_pairs(scene: Scene, values: Array, limit: float) -> list[tuple[int, float, Point, Point]]:
+    """Return (pair, distance, point, point) of checked pairs within `limit` m, nearest first.
+
+    `values` is one posture (1, columns). The points are the nearest ones of the first and the
+    second body of the pair, in the world.
+    """
+    _, pairs, far, points = _near(scene, values, limit)
+    best: dict[int, tuple[int, float, Point, Point]] = {}
+    for row, pair in enumerate(pairs.tolist()):
+        number, distance = int(scene.pair_of[pair]), float(far[row])
+        if distance > limit or (number in best and best[number][1] <= distance):
+            continue
+        (a, b, c), (x, y, z) = points[0][row].tolist(), points[1][row].tolist()
+        one, other = (a, b, c), (x, y, z)
+        if scene.body_of[scene.first[pair]] != scene.pairs[number].first:
+            one, other = other, one
+        best[number] = (number, distance, one, other)
+    return sorted(best.values(), key=lambda found: found[1])

@@ -48,6 +48,8 @@ class Draft:
     columns: dict[str, slice] = field(default_factory=dict)
     carriers: dict[str, Carrier] = field(default_factory=dict)
     """Links and mechanical units that objects may be fixed to."""
+    parts: frozenset[str] = frozenset()
+    """Objects that grippers can hold."""
 
     def report(
         self, code: str, message: str, help: str = "", severity: Severity = Severity.ERROR

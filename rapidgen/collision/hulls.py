@@ -32,6 +32,10 @@ class HullDistances:
         self._table = table
         self._made: dict[int, CollisionGeometry] = {}
 
+    def share(self, other: "HullDistances") -> None:
+        """Use the objects of a table with the same shapes at other places."""
+        self._made = other._made
+
     def distances(
         self, a: Indices, b: Indices, pose_a: tuple[Array, Array], pose_b: tuple[Array, Array]
     ) -> Distances:

@@ -39,6 +39,8 @@ def zone_pairs(name: str, zone: ZoneKeys, index: int, draft: Draft) -> list[Pair
     moving = [(i, b) for i, b in enumerate(draft.bodies[:index]) if b.owner]
     result = []
     for word in zone.of:
+        if word in draft.parts:
+            continue  # `gripping` adds the pairs of parts
         chosen = [
             i
             for i, b in moving

@@ -89,6 +89,14 @@ class Scene:
         other._set_pairs(pairs)
         return other
 
+    def with_body(self, index: int, body: Body, pairs: Sequence[Pair]) -> "Scene":
+        """Return a scene in which a body has the same shapes at other places, and other pairs."""
+        bodies = (*self.bodies[:index], body, *self.bodies[index + 1 :])
+        other = Scene(self.tree, bodies, pairs)
+        # The shapes have kept their numbers and sizes.
+        other._hulls.share(self._hulls)
+        return other
+
     @cached_property
     def relations(self) -> tuple[Array, Array]:
         """Return the nodes that move the first and the second shape of each pair alone.

@@ -71,6 +71,11 @@ class World:
     """Controller axis values at the start, by group."""
     time_tolerance: float | None = None
     """s between the clocks of two robots; None: the default of `prove_timing`."""
+    cell: CellDescription = field(default_factory=CellDescription)
+    special: Mapping[frozenset[str], float] = field(default_factory=dict)
+    """Clearances in m of pairs that the cell file names."""
+    held: Mapping[str, str] = field(default_factory=dict)
+    """Tools that hold parts, by part (`gripping.attach`)."""
 
     def values(self, postures: Mapping[str, Array]) -> Array:
         """Return values (n, columns) of controller axis values (n, joints) by group.
@@ -138,7 +143,7 @@ def build_world(
     if the cell has meshes. The names of links have the group's name before them if there are
     several robots.
     """
-    draft = Draft()
+    draft = Draft(parts=frozenset(grip.part for grip in cell.attach))
     keys = {robot.group.name: _keys_of(cell, robot.group) for robot in robots}
     stands = _stands(robots)
     bases = _bases(cell, stands, draft)
@@ -186,6 +191,8 @@ def build_world(
         tuple(draft.findings),
         {**starts, **(home or {})},
         cell.collision.time_tolerance if cell.collision is not None else None,
+        cell,
+        special,
     )
     return replace(world, diagnostics=(*world.diagnostics, *home_overlaps(world)))
 

@@ -246,6 +246,26 @@ class CollisionKeys(StrictModel):
 
 
 @dataclass(frozen=True)
+class AttachKeys(StrictModel):
+    """A part that a gripper can hold."""
+
+    part: Annotated[Identifier, Rule("An object of `things`.")]
+    to: Annotated[
+        str, Rule("A tool with shapes; `GROUP/TOOL` in a cell of several robots.", min_length=1)
+    ]
+    when: Annotated[
+        dict[Identifier, float],
+        Rule(
+            "Signal: value. A program on the virtual controller holds the part while all of them "
+            "have these values; without signals, only Python attaches it."
+        ),
+    ] = field(default_factory=dict)
+    reach: Annotated[float, Rule("Largest distance in mm of part and tool at the grip.", ge=0)] = (
+        20.0
+    )
+
+
+@dataclass(frozen=True)
 class ZoneBoxKeys(StrictModel):
     """A box from corner to corner, along the axes of the world."""
 
@@ -311,6 +331,9 @@ class CellKeys(StrictModel):
     zones: Annotated[dict[Identifier, ZoneKeys], Rule("Zones of collision checks, by name.")] = (
         field(default_factory=dict)
     )
+    attach: Annotated[
+        list[AttachKeys], Rule("Parts that grippers can hold, for collision checks.")
+    ] = field(default_factory=list)
 
 
 @dataclass(frozen=True, slots=True)
@@ -379,6 +402,7 @@ class CellDescription:
     """Shapes of tools at the flange, by name."""
     collision: CollisionKeys | None = None
     zones: Mapping[str, ZoneKeys] = field(default_factory=dict)
+    attach: Sequence[AttachKeys] = ()
     diagnostics: tuple[Diagnostic, ...] = field(default=(), compare=False)
     """Warnings found while loading."""
 
@@ -443,6 +467,7 @@ def load_cell(path: Path) -> CellDescription:
         },
         keys.collision,
         keys.zones,
+        tuple(keys.attach),
     )
     _check_force(keys, report, arm)
     if report.failed:

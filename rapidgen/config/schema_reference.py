@@ -45,6 +45,7 @@ CELL_SECTIONS = (
     cell.AllowedKeys,
     cell.ZoneKeys,
     cell.ZoneBoxKeys,
+    cell.AttachKeys,
 )
 
 
@@ -123,6 +124,7 @@ def _key_of(part: type) -> str:
         cell.AllowedKeys: "`collision.pairs.NAME - NAME`",
         cell.ZoneKeys: "`zones.NAME`",
         cell.ZoneBoxKeys: "`zones.NAME.box`",
+        cell.AttachKeys: "`attach` (a list of these)",
         schema.GroupKeys: "`groups.NAME`",
         schema.JointKeys: "`joints.NAME`",
         schema.ChainStepKeys: "`chain` (a list of these)",

@@ -7,7 +7,7 @@ cell description.
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import rapidgen.system as files
 from rapidgen.axes.default_postures import usual_start
@@ -23,6 +23,7 @@ from rapidgen.system.releases import UNKNOWN_ROBOTWARE
 
 if TYPE_CHECKING:
     from rapidgen.config.cell import CellDescription, CellRobotKeys
+    from rapidgen.controller.collisions import CollisionSetup
     from rapidgen.controller.inference.cell import InferredCell
     from rapidgen.controller.inference.robot import RobotCandidate
 
@@ -74,6 +75,25 @@ class Bootable:
     """Of those configurations."""
     cell: "CellDescription | None" = None
     """Description of the cell."""
+
+    def collisions(self, chosen: Literal["error", "warn", "off"] | None) -> "CollisionSetup | None":
+        """Return the set-up of collision checks; None without one.
+
+        Not chosen, `collision:` of the cell file means `error`. Raises DiagnosticError RG901 if
+        there is no cell file.
+        """
+        if chosen == "off" or (chosen is None and getattr(self.cell, "collision", None) is None):
+            return None
+        if self.cell is None:
+            raise refusal(
+                "RG901",
+                None,
+                "--collisions needs a cell file",
+                "add --cell FILE: `rapidgen schema --cell`",
+            )
+        from rapidgen.controller.collisions import CollisionSetup
+
+        return CollisionSetup(self.cell, self.described, chosen or "error")
 
 
 def load_target(targets: Sequence[Source], options: BootOptions | None = None) -> Bootable:

@@ -216,6 +216,14 @@ def _nameless(system: System, cell: "CellDescription") -> Iterator[Diagnostic]:
                         f"device '{device}' of the cell names '{name}', which is no signal",
                         suggest(name, list(names.values())) or "declare it under `signals:`",
                     )
+    for name in {name for grip in cell.attach for name in grip.when}:
+        if name.casefold() not in names:
+            yield error(
+                "RG434",
+                None,
+                f"`attach` of the cell names '{name}', which is no signal",
+                suggest(name, list(names.values())) or "declare it under `signals:`",
+            )
 
 
 def place_robots(controller: Booted, around: CellSetup) -> InferenceLog:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property, partial
 from os import PathLike
 from pathlib import Path
-from typing import Literal, TypedDict, TypeVar, get_args
+from typing import TYPE_CHECKING, Literal, TypedDict, TypeVar, get_args
 
 from rapidgen._compat import Self, Unpack
 from rapidgen.config.model import GroupConfig, RobotConfig
@@ -53,6 +53,10 @@ from rapidgen.system.cfg_database import CfgDatabase
 from rapidgen.system.model import ModuleFile, System
 from rapidgen.system.releases import ANY_MINOR, UNKNOWN_ROBOTWARE
 
+if TYPE_CHECKING:
+    from rapidgen.controller.collision_monitor import CollisionMonitor
+    from rapidgen.controller.collisions import CollisionSetup
+
 _LOG = logging.getLogger("rapidgen.controller")
 
 _T = TypeVar("_T")
@@ -96,6 +100,7 @@ class ControllerOptions(TypedDict, total=False):
     folder: Path | None
     faults: FaultPlan | None
     surroundings: CellSetup
+    detection: "CollisionSetup | None"
     autostart: bool
     entry_needed: bool
 
@@ -129,11 +134,13 @@ class VirtualController:
         folder: Path | None = None,
         faults: FaultPlan | None = None,
         surroundings: CellSetup = CellSetup(),  # noqa: B008 - frozen
+        detection: "CollisionSetup | None" = None,
         autostart: bool = True,
         entry_needed: bool = True,
     ) -> None:
         """Load every module; with `autostart` start all tasks in automatic mode.
 
+        `detection` is the cell in which a collision stops the robots (`Bootable.collisions`).
         `host` selects the operating system's network (an address to bind); empty means in memory on
         the virtual clock and 127.0.0.1 on the real one. DiagnosticError: a module cannot be loaded
         or, with `entry_needed`, a task with modules has no entry routine.
@@ -249,6 +256,13 @@ class VirtualController:
         loaded = sum(len(spec.modules) for spec in system.tasks)
         _LOG.info("%s: %d tasks, %d modules loaded", system.name, len(system.tasks), loaded)
         self.guessed = place_robots(self, surroundings)
+        self.collisions: "CollisionMonitor | None" = None  # noqa: UP037 - imported below
+        """Collision detection; None: there is none."""
+        if detection is not None:
+            # Slow to import, with NumPy and perhaps coal.
+            from rapidgen.controller.collision_monitor import CollisionMonitor
+
+            self.collisions = CollisionMonitor(self, detection)
         if faults is not None:
             schedule_faults(faults, self)
         if autostart:
@@ -303,15 +317,18 @@ class VirtualController:
         backup: Path | str | None = None,
         robot: str = "",
         cell: Path | str = "",
+        collisions: Literal["error", "warn", "off"] = "off",
         **options: Unpack[ControllerOptions],
     ) -> Self:
         """Boot a generated folder (robots from its manifest) or a backup.
 
-        `backup` is that of the controller below a generated folder; `robot` and `cell` as in
-        `from_files`. DiagnosticError: a file cannot be read, or a controller would not load it.
+        `backup` is that of the controller below a generated folder; `robot`, `cell` and
+        `collisions` as in `from_files`. DiagnosticError: a file cannot be read, or a controller
+        would not load it.
         """
-        boot_options = BootOptions(backup=backup, robot=robot, cell=cell)
-        return cls.boot(load_target([path], boot_options), **options)
+        booted = load_target([path], BootOptions(backup=backup, robot=robot, cell=cell))
+        options.setdefault("detection", booted.collisions(collisions))
+        return cls.boot(booted, **options)
 
     @classmethod
     def from_files(
@@ -322,12 +339,14 @@ class VirtualController:
         robot: str = "",
         cell: Path | str = "",
         start: Sequence[float] = (),
+        collisions: Literal["error", "warn", "off"] = "off",
         **options: Unpack[ControllerOptions],
     ) -> Self:
         """Boot loose module files: one task T_ROB1, or one for each key.
 
         `robot` is a shipped name or a configuration (default irb120), `cell` a cell description or
-        "infer", `start` the robot's start position (deg, mm).
+        "infer", `start` the robot's start position (deg, mm). With `collisions` "error", a contact
+        in the cell stops the robots as collision detection does; "warn" only logs it.
         """
         if isinstance(files, str | Path):
             raise TypeError(f"files are a list, or a mapping of tasks to lists: [{str(files)!r}]")
@@ -336,7 +355,9 @@ class VirtualController:
             if isinstance(names, str | Path):
                 raise TypeError(f"the files of {task} are a list: [{str(names)!r}]")
         boot_options = BootOptions(tasks, robot=robot, entry=entry, cell=cell, start=start)
-        return cls.boot(load_target((), boot_options), **options)
+        booted = load_target((), boot_options)
+        options.setdefault("detection", booted.collisions(collisions))
+        return cls.boot(booted, **options)
 
     @classmethod
     def from_config(

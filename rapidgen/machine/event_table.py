@@ -355,6 +355,7 @@ _OTHERS: Final[tuple[tuple[int, str, str, str, str, str, str], ...]] = (
 _OWN: Final[tuple[tuple[int, str, str, str], ...]] = (
     # Number, types, title, text.
     (191910, "I", "Inferred input", "{1} becomes {2}."),
+    (191911, "W", "Gripped part out of reach", "{1}"),
     (192095, "E", "Start refused: system failure", "{1}"),
     (192096, "E", "Start refused: off the path", "{1}"),
     (192097, "E", "Start refused", "{1}"),

@@ -199,6 +199,11 @@ class Switches:
     sockets_limited: bool = True
     """32 sockets of a controller may be open [mem]. False: any number."""
 
+    collision_error: Literal["stop", "error"] = "stop"
+    """A detected collision stops the program, as on delivered controllers, or raises ERR_COLL_STOP
+    in the move, as with the system parameter Collision Error Handling [code: handlers of public
+    programs]."""
+
     stationary_zones: Literal["power_on", "anywhere"] = "power_on"
     """Stationary world zones may be defined in event routines of POWER ON [manual 3HAC050917], or
     in any routine, for programs tested without their event routines."""

@@ -118,18 +118,20 @@ class ControllerFactory:
         controller = VirtualController.boot(booted, **options)
         self._made.append(controller)
         if collisions != "off":
-            self._watch(controller, booted, is_error=collisions == "error")
+            self._watch(controller, booted, collisions)
         return controller
 
     def _watch(
-        self, controller: "VirtualController", booted: "Bootable", *, is_error: bool
+        self, controller: "VirtualController", booted: "Bootable", mode: Literal["error", "warn"]
     ) -> None:
         from rapidgen.controller.collisions import CollisionWatch
 
         if booted.cell is None:
             raise ValueError("collisions need a cell: virtual_controller(..., cell=FILE)")
-        watch = CollisionWatch(controller, booted.cell, booted.described)
-        self._watched.append((controller, watch, is_error))
+        setup = booted.collisions(mode)
+        assert setup is not None
+        watch = CollisionWatch(controller, setup)
+        self._watched.append((controller, watch, mode == "error"))
 
     def clearance(self, controller: "VirtualController") -> "Clearances":
         """Return the clearances of a controller's robots so far: m, s.

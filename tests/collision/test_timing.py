@@ -17,7 +17,7 @@ from rapidgen.collision.tree import Tree
 from rapidgen.collision.world import build_world, sources_of
 from rapidgen.config.cell import load_cell
 from rapidgen.config.load import load_config
-from rapidgen.controller.collisions import CollisionWatch
+from rapidgen.controller.collisions import CollisionSetup, CollisionWatch
 from rapidgen.controller.controller import VirtualController
 from tests.docs.tree import ROOT
 
@@ -169,7 +169,7 @@ def test_synchronised_movement_of_a_program_is_known(yumi):
         files[task][0].write_text(text)
     groups = load_config(yumi / "robot.yaml").groups
     with VirtualController.from_files(files, robots=groups, cycle="once", autostart=False) as vc:
-        watch = CollisionWatch(vc, load_cell(yumi / "cell.yaml"))
+        watch = CollisionWatch(vc, CollisionSetup(load_cell(yumi / "cell.yaml")))
         vc.start_program()
         assert vc.run(max_time=60) == "finished"
         ((start, end, names),) = watch.together()

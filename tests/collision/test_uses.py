@@ -102,7 +102,7 @@ def test_check_of_other_joints_names_the_robots(cell, folder, capsys):
 def test_watch_has_clearances_of_the_planned_path(cell, program):
     booted = load_target([program], BootOptions(cell=str(cell(FAR))))
     with VirtualController.boot(booted, autostart=False) as controller:
-        watch = CollisionWatch(controller, booted.cell, booted.described)
+        watch = CollisionWatch(controller, booted.collisions("error"))
         controller.start_program()
         controller.run_for(3)
         assert watch.report().is_free
