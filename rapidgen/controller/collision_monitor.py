@@ -17,7 +17,7 @@ controller needs a force, and is late as well.
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import inf
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import Literal, Protocol, TypeAlias
 
 import numpy as np
 
@@ -26,15 +26,16 @@ from rapidgen.collision.path import Path
 from rapidgen.collision.proof import Violation, prove
 from rapidgen.collision.scene import Pair
 from rapidgen.collision.world import World
-from rapidgen.controller.collisions import CollisionSetup, WorldHistory
+from rapidgen.controller.collisions import CollisionSetup, WatchedRobots, WorldHistory
+from rapidgen.controller.operation import Operation
 from rapidgen.machine.scheduler import S, Timer
 from rapidgen.motion.motion import Motion
 from rapidgen.motion.recorder import PERIOD
+from rapidgen.rapid.switches import Switches
 from rapidgen.runtime.errors import Location, errnum
+from rapidgen.runtime.motion_interface import RobotData
 from rapidgen.runtime.task.interrupts import ProcessError
-
-if TYPE_CHECKING:
-    from rapidgen.controller.controller import VirtualController
+from rapidgen.runtime.task.task import Task
 
 LOOK = 0.02
 """s between two looks while a robot moves."""
@@ -94,6 +95,15 @@ class CollisionState:
     """Sentences on what is not checked, such as links without shapes."""
 
 
+class StoppedRobots(WatchedRobots, Protocol):
+    """The parts of a controller that detection uses."""
+
+    operation: Operation
+    robot_data: dict[str, RobotData]
+    rapid_tasks: dict[str, Task]
+    dialect: Switches
+
+
 class CollisionMonitor:
     """Watches all robots of a controller from its creation.
 
@@ -101,7 +111,7 @@ class CollisionMonitor:
     ModuleNotFoundError for meshes without coal. All methods belong to the controller's thread.
     """
 
-    def __init__(self, controller: "VirtualController", setup: CollisionSetup) -> None:
+    def __init__(self, controller: StoppedRobots, setup: CollisionSetup) -> None:
         self._controller = controller
         self._is_error = setup.mode == "error"
         self.history = WorldHistory(controller, setup)
@@ -128,7 +138,7 @@ class CollisionMonitor:
             for pair, far, first, second in near_pairs(scene, self._values(), LIMIT)
         )
         return CollisionState(
-            self._controller.now,
+            self._controller.scheduler.now / S,
             min((one.distance for one in near), default=inf),
             near,
             self.contacts[0] if self.contacts else None,

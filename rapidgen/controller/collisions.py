@@ -9,7 +9,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path as FilePath
-from typing import TYPE_CHECKING, Literal
+from typing import Literal, Protocol
 
 import numpy as np
 
@@ -28,11 +28,11 @@ from rapidgen.collision.timing import Together
 from rapidgen.collision.world import World, build_world, sources_of
 from rapidgen.config.cell import AttachKeys, CellDescription
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span
-from rapidgen.machine.scheduler import S
+from rapidgen.machine.event_log import EventLog
+from rapidgen.machine.io import IOSystem
+from rapidgen.machine.scheduler import S, Scheduler, SyncPoints
 from rapidgen.motion.recorder import PERIOD
-
-if TYPE_CHECKING:
-    from rapidgen.controller.controller import VirtualController
+from rapidgen.motion.system import MotionSystem
 
 _SAMPLES = 2000
 """Times at which clearances are computed."""
@@ -50,6 +50,19 @@ class CollisionSetup:
     mode: Literal["error", "warn"] = "error"
 
 
+class WatchedRobots(Protocol):
+    """The parts of a controller that a collision check uses."""
+
+    scheduler: Scheduler
+    io: IOSystem
+    motion: MotionSystem
+    meetings: SyncPoints
+
+    @property
+    def log(self) -> EventLog:
+        """The event log."""
+
+
 class WorldHistory:
     """The robots of a controller and what they hold, from its creation.
 
@@ -58,10 +71,10 @@ class WorldHistory:
     for meshes without coal.
     """
 
-    def __init__(self, controller: "VirtualController", setup: CollisionSetup) -> None:
+    def __init__(self, controller: WatchedRobots, setup: CollisionSetup) -> None:
         self._controller = controller
         groups = [group.config for group in controller.motion.groups.values()]
-        recorders = controller.record()
+        recorders = controller.motion.record()
         now = controller.scheduler.now
         home = {name: recorder.postures([now])[0][0] for name, recorder in recorders.items()}
         robots = sources_of(setup.cell, groups, setup.configurations)
@@ -194,7 +207,7 @@ class CollisionWatch:
     ModuleNotFoundError for meshes without coal.
     """
 
-    def __init__(self, controller: "VirtualController", setup: CollisionSetup) -> None:
+    def __init__(self, controller: WatchedRobots, setup: CollisionSetup) -> None:
         self._controller = controller
         self.history = WorldHistory(controller, setup)
         self._severity = Severity.ERROR if setup.mode == "error" else Severity.WARNING
@@ -218,6 +231,10 @@ class CollisionWatch:
             path = Path.sampled(np.array(rows) / S, self.history.values(rows))
             result.append((world, path))
         return result
+
+    def path(self) -> Path:
+        """Return the path since the last grip or release, in the columns of the world; s."""
+        return self._stages()[-1][1]
 
     def report(self) -> CollisionReport:
         """Prove the path so far."""
