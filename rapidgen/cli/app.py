@@ -55,6 +55,7 @@ COMMANDS = {
     "stop-program": ("controller", "Stop the program of a controller."),
     "io": ("controller", "Show or set signals of a driver or a controller."),
     "symbols": ("controller", "Show or set RAPID data of a controller."),
+    "load": ("load", "Load a module into a task of a controller."),
     "backup": ("controller", "Download a backup of a controller."),
     "plot": ("observation", "Plot joints over time, from one or two recordings."),
     "view": ("observation", "Show a robot or a recording in the browser, read only."),

@@ -1,6 +1,7 @@
 """The commands over Robot Web Services: `status`, `log`, `io` and others."""
 
 import json
+import time
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -12,9 +13,21 @@ from rapidgen.cli.target_text import plain_number, target_first
 from rapidgen.diagnostics import refusal
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from rapidgen.client.rws import Controller
+    from rapidgen.client.rws.model import SymbolInfo
+
+
+Every = Annotated[
+    float | None,
+    typer.Option(
+        help="Repeat until Ctrl-C; JSON is then one line each time.",
+        min=0.2,
+        max=3600,
+        metavar="SECONDS",
+    ),
+]
 
 
 def status(
@@ -27,23 +40,32 @@ def status(
     modules: Annotated[
         bool, typer.Option("--modules", help="Also the modules of each task.")
     ] = False,
+    every: Every = None,
 ) -> int:
     """Show the mode, motors, speed and tasks of a controller.
 
     Uses Robot Web Services of RobotWare 6, 7 or 8 and detects the version. Reads only.
     """
-    import json
 
     from rapidgen.cli.rws_session import controller
 
     (host,) = target_first(to, host)
     with controller(host, user, secrets, fingerprint) as result:
-        text = controller_state(result, modules=modules)
-    if as_json:
-        typer.echo(json.dumps(text, indent=2))
-    else:
-        show_state(text)
+        for _ in _looks(every):
+            text = controller_state(result, modules=modules)
+            if as_json:
+                typer.echo(json.dumps(text, indent=None if every else 2))
+            else:
+                show_state(text)
     return 0
+
+
+def _looks(every: float | None) -> "Iterator[None]":
+    """Yield once, or again and again with so many s between."""
+    yield
+    while every:
+        time.sleep(every)
+        yield
 
 
 def controller_state(result: "Controller", *, modules: bool = False) -> dict[str, object]:
@@ -168,8 +190,6 @@ def log(
                 "RG901", None, "--follow needs a controller", "use HOST, or leave out --follow"
             )
         return _saved(Path(host), count, domain, as_json)
-    import json
-    import time
     from dataclasses import asdict
 
     from rapidgen.cli.rws_session import controller
@@ -199,7 +219,6 @@ def log(
 
 
 def _saved(path: Path, count: int, domain: int, as_json: bool) -> int:
-    import json
     from dataclasses import asdict
 
     from rapidgen.cli.event_texts import saved_event, summary
@@ -430,6 +449,7 @@ def symbols(
     values: Annotated[
         bool, typer.Option("--values", help="Also the values of the data of TASK/MODULE.")
     ] = False,
+    every: Every = None,
     yes: options.Yes = False,
     to: options.ToController = "",
     user: options.User = "",
@@ -442,8 +462,6 @@ def symbols(
     With `--source` the source text of a module is shown instead. A write needs
     confirmation, unless the controller is virtual, and is read back.
     """
-    import json
-    from dataclasses import asdict
 
     from rapidgen.cli.deployment import confirm_plan
     from rapidgen.cli.rws_session import ask_pendant, controller
@@ -459,6 +477,8 @@ def symbols(
         raise typer.BadParameter(f"'{name}' is not TASK/MODULE/NAME")
     if (source or values) and (value or len(parts) != 2):
         raise typer.BadParameter("--source and --values take TASK/MODULE and no value")
+    if every and not values:
+        raise typer.BadParameter("--every repeats --values")
     with controller(host, user, secrets, fingerprint) as result:
         if literal is not None:
             if not result.identity().is_virtual:
@@ -476,21 +496,35 @@ def symbols(
         tasks = parts[:1] or [task.name for task in result.tasks()]
         module = parts[1] if len(parts) == 2 else ""
         all_of = [s for t in tasks for s in result.symbols(t, module=module, kind=kind)]
-        read_values = {s.path: _value(result, s.path) for s in all_of} if values else {}
-    if module and not all_of:
-        hint = f"`rapidgen symbols {host} {parts[0]} --kind any` lists all data"
-        raise typer.BadParameter(f"no data of kind {kind} in {name}: {hint}")
-    if as_json:
-        entries: list[dict[str, object]] = [asdict(one) for one in all_of]
-        if values:
-            entries = [{**asdict(one), "value": read_values[one.path]} for one in all_of]
-        typer.echo(json.dumps(entries, indent=2))
-        return 0
-    for one in all_of:
-        dims = "{" + ",".join(map(str, one.dims)) + "}" if one.dims else ""
-        text = f"  {read_values[one.path] or '?'}" if values else ""
-        typer.echo(f"{one.path}  {one.kind}  {one.type}{dims}{text}")
+        if module and not all_of:
+            hint = f"`rapidgen symbols {host} {parts[0]} --kind any` lists all data"
+            raise typer.BadParameter(f"no data of kind {kind} in {name}: {hint}")
+        for _ in _looks(every):
+            read_values = {s.path: _value(result, s.path) for s in all_of} if values else None
+            if as_json:
+                indent = None if every else 2
+                typer.echo(json.dumps(_symbol_entries(all_of, read_values), indent=indent))
+            else:
+                _show_symbols(all_of, read_values)
     return 0
+
+
+def _symbol_entries(
+    symbols: "Sequence[SymbolInfo]", values: "Mapping[str, str | None] | None"
+) -> list[dict[str, object]]:
+    """Return data as JSON, with values if there are any."""
+    if values is None:
+        return [asdict(one) for one in symbols]
+    return [{**asdict(one), "value": values[one.path]} for one in symbols]
+
+
+def _show_symbols(
+    symbols: "Sequence[SymbolInfo]", values: "Mapping[str, str | None] | None"
+) -> None:
+    for one in symbols:
+        dims = "{" + ",".join(map(str, one.dims)) + "}" if one.dims else ""
+        text = f"  {values[one.path] or '?'}" if values is not None else ""
+        typer.echo(f"{one.path}  {one.kind}  {one.type}{dims}{text}")
 
 
 def _value(result: "Controller", path: str) -> str | None:

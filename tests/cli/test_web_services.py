@@ -275,3 +275,24 @@ def test_status_shows_fix_for_stopped_background_task(name, execution, words, ca
     assert len(fixes) == bool(words)
     assert all(word in fixes[0] for word in words)
     assert all(("driver" in fix) == ("ROS" in name) for fix in fixes)
+
+
+@pytest.mark.parametrize("words", [["status"], ["symbols", "T_ROB1/MainModule", "--values"]])
+def test_every_repeats_in_one_session_with_a_line_each_time(host, words, capsys, monkeypatch):
+    looks = iter([None, None])
+
+    def stop_after_two(_seconds):
+        if next(looks, "end") == "end":
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr("rapidgen.cli.controller.time", SimpleNamespace(sleep=stop_after_two))
+    command, *rest = words
+    assert main([command, host, *rest, "--json", "--every", "0.5"]) == 130
+    lines = [json.loads(line) for line in said(capsys).splitlines()]
+    assert len([one for one in lines if "errors" not in one]) == 3
+    assert main([command, host, *rest[:1], "--every", "0.1"]) == 2
+
+
+def test_every_needs_values(capsys):
+    assert main(["symbols", "rws://127.0.0.1:1", "--every", "1"]) == 2
+    assert "--every repeats --values" in capsys.readouterr().err
