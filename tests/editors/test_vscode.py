@@ -12,12 +12,16 @@ import subprocess
 import sys
 import time
 import zipfile
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 
 from tests.editors.node import BUILT, MODULES, node
+from tests.viewer.bench import until
 from tests.viewer.conftest import ARGUMENTS, absent
+from tests.viewer.test_program_aspect import TARGETS as POINTS
+from tests.viewer.test_program_page import SEEN
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
@@ -42,6 +46,9 @@ MODULE = """MODULE cell
   ENDPROC
 ENDMODULE
 """
+
+PICTURES = os.environ.get("RAPIDGEN_PICTURES", "")
+"""Folder for pictures of the pages, to look at."""
 
 pytestmark = pytest.mark.long
 
@@ -101,9 +108,9 @@ def test_grammar():
     assert done.returncode == 0, done.stdout
 
 
-@pytest.fixture(scope="module")
-def report(tmp_path_factory):
-    """What the probe has seen in VS Code."""
+@contextmanager
+def workbench(folder, workspace, probes=(), **environment):
+    """VS Code with the extension on a workspace: its page, and its log."""
     vsix, chromium = BUILT / "rapidgen.vsix", shutil.which("chromium")
     if not (SERVER / "entry.js").is_file():
         absent("code-server: .ci/code_server")
@@ -112,23 +119,16 @@ def report(tmp_path_factory):
     if chromium is None:
         absent("Chromium: run .ci/browser, or install it")
     sync_api = pytest.importorskip("playwright.sync_api")
-    folder = tmp_path_factory.mktemp("vscode")
-    workspace = folder / "workspace"
-    workspace.mkdir()
-    (workspace / "cell.mod").write_text(MODULE)
-    (workspace / "go.mod").write_text("module example.org/x\n")
-    seen = folder / "report.json"
     settings(folder)
     environment = {
         **os.environ,
         "PATH": f"{Path(node()[0]).parent}{os.pathsep}{os.environ['PATH']}",
         "HOME": str(folder),
-        "RAPIDGEN_PROBE": str(seen),
-        "RAPIDGEN_PROBE_LSP": "1",
+        **environment,
     }
     places = ["--user-data-dir", str(folder / "data"), "--extensions-dir", str(folder / "ext")]
     entry = [*node(), str(SERVER / "entry.js"), *places]
-    for one in (vsix, packed(HERE / "probe", folder / "probe.vsix")):
+    for one in (vsix, *probes):
         subprocess.run(
             [*entry, "--install-extension", str(one)], env=environment, check=True, timeout=120
         )
@@ -146,16 +146,52 @@ def report(tmp_path_factory):
         ) as server,
     ):
         try:
-            _wait(lambda: _listens(port), log)
+            wait(lambda: _listens(port), log)
             with sync_api.sync_playwright() as driver:
                 browser = driver.chromium.launch(executable_path=chromium, args=ARGUMENTS)
-                page = browser.new_page()
+                page = browser.new_page(viewport={"width": 1280, "height": 800})
                 page.goto(f"http://127.0.0.1:{port}/?folder={workspace}")
-                _wait(seen.is_file, log)
+                yield page, log
                 browser.close()
         finally:
             server.terminate()
-    return json.loads(seen.read_text())
+
+
+@pytest.fixture(scope="module")
+def report(tmp_path_factory):
+    """What the probe has seen in VS Code, and what a page of its session has shown."""
+    folder = tmp_path_factory.mktemp("vscode")
+    workspace = folder / "workspace"
+    workspace.mkdir()
+    (workspace / "cell.mod").write_text(MODULE)
+    (workspace / "go.mod").write_text("module example.org/x\n")
+    (workspace / "points.mod").write_text(POINTS)
+    seen, address = folder / "report.json", folder / "address.txt"
+    own = packed(HERE / "probe", folder / "probe.vsix")
+    environment = {"RAPIDGEN_PROBE": str(seen), "RAPIDGEN_PROBE_LSP": "1"}
+    shown = folder / "shown.json"
+    with workbench(
+        folder,
+        workspace,
+        [own],
+        RAPIDGEN_PROBE_PAGE=str(address),
+        RAPIDGEN_PROBE_SHOWN=str(shown),
+        **environment,
+    ) as (page, log):
+        wait(lambda: address.is_file() or seen.is_file(), log)
+        if address.is_file():
+            robot = page.context.browser.new_page(viewport={"width": 1280, "height": 720})
+            robot.goto(address.read_text())
+            drawn = until(robot, "window.rapidgen && rapidgen.editor.seen", lambda all: all)
+            robot.get_by_role("tab", name="Program").click()
+            until(robot, f"{SEEN}.breakpoints.length")
+            points = robot.evaluate(f"{SEEN}.breakpoints")
+            if PICTURES:
+                robot.screenshot(path=str(Path(PICTURES) / "target.png"))
+            robot.get_by_role("button", name="Pointer in editor").click()
+            shown.write_text(json.dumps({"targets": drawn, "breakpoints": points}))
+        wait(seen.is_file, log)
+    return {**json.loads(seen.read_text()), "page": json.loads(shown.read_text())}
 
 
 def _listens(port):
@@ -163,7 +199,7 @@ def _listens(port):
         return own.connect_ex(("127.0.0.1", port)) == 0
 
 
-def _wait(condition, log):
+def wait(condition, log):
     end = time.monotonic() + 180
     while not condition():
         assert time.monotonic() < end, log.read_text()[-3000:]
@@ -196,3 +232,15 @@ def test_language_server(report):
     assert report["renamed"] == [7, 12]
     assert report["fixes"]
     assert {"main", "work", "unused"} <= set(report["symbols"])
+
+
+def test_target_under_cursor_is_drawn_on_the_page(report):
+    assert report["shownTargets"] == ["p10"]
+    heights = [round(one["pose"]["position"][2], 6) for one in report["page"]["targets"]]
+    assert heights == [0.4, 0.5]
+    assert report["lenses"] == [2, 3]
+
+
+def test_page_shows_breakpoints_of_the_session_and_opens_the_pointer(report):
+    assert report["page"]["breakpoints"] == [8]
+    assert report["opened"] == ["points.mod", 6]

@@ -1,6 +1,7 @@
 // Debug sessions: how one starts without launch.json, dialogs of the program, and the page of the simulator.
 import * as vscode from "vscode";
 import { placeOf, requireProgram } from "./discovery";
+import { registerTargets } from "./targets";
 
 interface Question {
   readonly number: number;
@@ -15,6 +16,12 @@ interface Question {
 export function registerDebugger(context: vscode.ExtensionContext, log: vscode.LogOutputChannel): void {
   const questions = new Questions(log);
   const pages = new Pages();
+  registerTargets(context, async (file) => {
+    const shown = pages.next();
+    // Paused before the first statement: the user has not asked for a run.
+    const started = await start(file, { view: true, stopOnEntry: true });
+    return started ? shown : undefined;
+  });
   context.subscriptions.push(
     vscode.debug.registerDebugAdapterDescriptorFactory("rapidgen", {
       async createDebugAdapterDescriptor() {
@@ -78,11 +85,11 @@ export function registerDebugger(context: vscode.ExtensionContext, log: vscode.L
   );
 }
 
-async function start(file: vscode.Uri | string | undefined, options: Record<string, unknown>): Promise<void> {
+async function start(file: vscode.Uri | string | undefined, options: Record<string, unknown>): Promise<boolean> {
   const place = placeOf(file);
-  if (!place) return;
+  if (!place) return false;
   const folder = vscode.workspace.getWorkspaceFolder(place);
-  await vscode.debug.startDebugging(folder, { ...moduleConfiguration(place), ...options });
+  return vscode.debug.startDebugging(folder, { ...moduleConfiguration(place), ...options });
 }
 
 function moduleConfiguration(place: vscode.Uri): vscode.DebugConfiguration {
@@ -138,12 +145,22 @@ function key(session: vscode.DebugSession, number: number): string {
   return `${session.id} ${number}`;
 }
 
-/** Pages of simulators, beside the editor. */
+/** Pages of simulators, in the browser. */
 class Pages {
   private readonly addresses = new Map<string, string>();
+  private readonly waiting: ((session: vscode.DebugSession | undefined) => void)[] = [];
+
+  /** Resolves to the session of the next page; undefined: none within 30 s. */
+  next(): Promise<vscode.DebugSession | undefined> {
+    return new Promise((resolve) => {
+      this.waiting.push(resolve);
+      setTimeout(() => resolve(undefined), 30_000);
+    });
+  }
 
   async show(session: vscode.DebugSession, address: string): Promise<void> {
     this.addresses.set(session.id, address);
+    for (const resolve of this.waiting.splice(0)) resolve(session);
     await display(address);
   }
 
@@ -165,8 +182,6 @@ class Pages {
 }
 
 async function display(address: string): Promise<void> {
-  await vscode.commands.executeCommand("simpleBrowser.api.open", vscode.Uri.parse(address), {
-    viewColumn: vscode.ViewColumn.Beside,
-    preserveFocus: true,
-  });
+  // The page forbids frames of other pages, such as VS Code's simple browser: a page around it could click in it.
+  await vscode.env.openExternal(vscode.Uri.parse(address));
 }

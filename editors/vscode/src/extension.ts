@@ -1,6 +1,7 @@
 // The extension: starts `rapidgen lsp` and `rapidgen dap`, and offers commands and tasks of rapidgen.
 import * as vscode from "vscode";
 import { LanguageClient, State } from "vscode-languageclient/node";
+import { registerControllers } from "./controllers";
 import { registerDebugger } from "./debug";
 import { findProgram, requireProgram } from "./discovery";
 import { registerTasks } from "./tasks";
@@ -23,6 +24,7 @@ export async function activate(context: vscode.ExtensionContext): Promise<void> 
   );
   registerDebugger(context, log);
   registerTasks(context);
+  registerControllers(context);
   await server.restart(false);
 }
 

@@ -36,6 +36,7 @@ async function main() {
   report.goMod = other.languageId;
   if (process.env.RAPIDGEN_PROBE_LSP) await languageServer(editor, file);
   await debugSession(file);
+  await targets(vscode.Uri.joinPath(folder, "points.mod"));
 }
 
 async function languageServer(editor, file) {
@@ -92,4 +93,26 @@ async function debugSession(file) {
   });
   await until("the end", () => events.some((one) => one.event === "exited"));
   report.output = events.filter((one) => one.event === "output" && one.body.category === "stdout").map((one) => one.body.output);
+}
+
+// Points of the editor and its page: showTarget starts a paused session with a page.
+async function targets(file) {
+  const editor = await vscode.window.showTextDocument(file);
+  const at = positionOf(editor.document, "p10", 1);
+  editor.selection = new vscode.Selection(at, at);
+  vscode.debug.removeBreakpoints(vscode.debug.breakpoints);
+  vscode.debug.addBreakpoints([new vscode.SourceBreakpoint(new vscode.Location(file, new vscode.Position(7, 0)))]);
+  events.length = 0;
+  const shown = await vscode.commands.executeCommand("rapidgen.showTarget");
+  report.shownTargets = shown?.targets;
+  const lenses = await vscode.commands.executeCommand("vscode.executeCodeLensProvider", file, 100);
+  report.lenses = lenses.filter((one) => one.command?.title === "Show target").map((one) => one.range.start.line + 1);
+  const page = events.find((one) => one.event === "rapidgen/page");
+  fs.writeFileSync(process.env.RAPIDGEN_PROBE_PAGE + ".part", page.body.url);
+  fs.renameSync(process.env.RAPIDGEN_PROBE_PAGE + ".part", process.env.RAPIDGEN_PROBE_PAGE);
+  await until("the pointer of the page in the editor", () => events.some((one) => one.event === "rapidgen/open"));
+  await until("its line", () => vscode.window.activeTextEditor?.selection.active.line === 5);
+  const active = vscode.window.activeTextEditor;
+  report.opened = [active.document.uri.path.split("/").pop(), active.selection.active.line + 1];
+  await vscode.debug.stopDebugging();
 }
