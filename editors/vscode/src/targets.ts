@@ -34,7 +34,7 @@ export function registerTargets(context: vscode.ExtensionContext, startWithPage:
       const own = session();
       if (!own || textEditor.document.languageId !== "rapid" || !vscode.workspace.getConfiguration("rapidgen").get<boolean>("followCursor")) return;
       // A module that the program does not have is no target: nothing to report while the cursor moves.
-      timer = setTimeout(() => void ask(own, textEditor).catch(() => undefined), DELAY);
+      timer = setTimeout(() => void ask(own, place(textEditor)).catch(() => undefined), DELAY);
     }),
     vscode.debug.onDidReceiveDebugSessionCustomEvent(async (event) => {
       if (event.session.type !== "rapidgen" || event.event !== "rapidgen/open") return;
@@ -57,14 +57,25 @@ interface Shown {
   readonly doubt: string;
 }
 
-async function ask(own: vscode.DebugSession, editor: vscode.TextEditor, line?: number): Promise<Shown> {
+interface Asked {
+  readonly source: { readonly path: string };
+  readonly line: number;
+  readonly name: string;
+}
+
+/** Return the place under the cursor, or a line from 1. */
+function place(editor: vscode.TextEditor, line?: number): Asked {
   const at = editor.selection.active;
   const word = line === undefined ? editor.document.getWordRangeAtPosition(at) : undefined;
-  return (await own.customRequest("rapidgen/showTarget", {
+  return {
     source: { path: editor.document.uri.fsPath },
     line: line ?? at.line + 1,
     name: word ? editor.document.getText(word) : "",
-  })) as Shown;
+  };
+}
+
+async function ask(own: vscode.DebugSession, asked: Asked): Promise<Shown> {
+  return (await own.customRequest("rapidgen/showTarget", asked)) as Shown;
 }
 
 /** Show the target of a line, from 1, or that under the cursor. */
@@ -72,10 +83,12 @@ async function showTarget(startWithPage: StartWithPage, file?: vscode.Uri, line?
   if (file) await vscode.window.showTextDocument(file, { preserveFocus: false });
   const editor = vscode.window.activeTextEditor;
   if (editor?.document.languageId !== "rapid") return undefined;
+  // Before the session begins: at its pause, VS Code moves the cursor there.
+  const asked = place(editor, line);
   const own = session() ?? (await startWithPage(editor.document.uri));
   if (!own) return undefined;
   try {
-    const shown = await ask(own, editor, line);
+    const shown = await ask(own, asked);
     if (shown.doubt) void vscode.window.showWarningMessage(shown.doubt);
     if (!shown.targets.length)
       void vscode.window.showInformationMessage("No move to a known target here: only a move knows the tool and the work object.");
