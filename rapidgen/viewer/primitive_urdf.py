@@ -14,6 +14,7 @@ from rapidgen.axes.frames import ORIGIN, Pose, add, scale
 from rapidgen.axes.mapping import JointMap
 from rapidgen.config.model import ChainLink, GroupConfig, Joint
 from rapidgen.viewer import primitives
+from rapidgen.viewer.arm_solids import AXES, arm_of, balancer, dress
 from rapidgen.viewer.primitives import text
 
 BASE = "base"
@@ -57,13 +58,24 @@ def described(group: GroupConfig) -> Drawing:
     if not group.chain:
         primitives.foot(base, radii[0], ORIGIN)
     passive: dict[str, tuple[tuple[int, float], ...]] = {}
-    flange = _branch(robot, base, group, group.chain, radii, "link_", passive)
-    primitives.plate(flange, radii[-1] * 1.1)
+    arm = arm_of(group)
+    bare = range(arm.first, arm.first + len(AXES)) if arm is not None else range(0)
+    links = _branch(robot, base, group, group.chain, radii, "link_", passive, bare)
+    flange = links[-1]
+    if arm is None:
+        primitives.plate(flange, radii[-1] * 1.1)
+    else:
+        own = links[arm.first : arm.first + len(AXES) + 1]
+        dress(arm, own)
+        second = group.chain[arm.first + 1].joint
+        index = JointMap.of(group).names.index(second)
+        passive |= balancer(robot, arm, own[1], own[2], index)
     for i, positioner in enumerate(group.positioners):
         # Its support is no larger than the arm's own foot, its plate is.
         wide = [radii[0] * 1.2] * len(positioner.chain)
-        end = _branch(robot, base, group, positioner.chain, wide, f"unit_{i + 1}_", passive)
-        primitives.plate(end, radii[0] * 3.0)
+        prefix = f"unit_{i + 1}_"
+        made = _branch(robot, base, group, positioner.chain, wide, prefix, passive, range(0))
+        primitives.plate(made[-1], radii[0] * 3.0)
     movable = (*JointMap.of(group).names, *passive)
     return Drawing(
         tostring(robot, "unicode"), movable, flange.get("name", BASE), (*passive.values(),)
@@ -78,11 +90,13 @@ def _branch(
     radii: Sequence[float],
     prefix: str,
     passive: dict[str, tuple[tuple[int, float], ...]],
-) -> Element:
-    """Draw a chain from its base; return its last link.
+    bare: range,
+) -> list[Element]:
+    """Draw a chain from its base; return the base and its links.
 
-    Passive joints are added to `passive`.
+    Passive joints are added to `passive`. Steps in `bare` get no solids.
     """
+    links = [link]
     names = JointMap.of(group).names
     axis = _UP
     stands = True
@@ -91,7 +105,9 @@ def _branch(
         slide = next(
             (j for j in group.joints if _slides(group, step) and j.name == step.joint), None
         )
-        if slide is not None and stands:
+        if i in bare:
+            stands = False
+        elif slide is not None and stands:
             _rail(link, step, slide, radii[i])
         elif stands:
             # A stationary robot has its foot below its first axis.
@@ -109,18 +125,19 @@ def _branch(
         SubElement(joint, "origin", xyz=text(step.xyz), rpy=text(step.rpy))
         SubElement(joint, "parent", link=link.get("name", ""))
         link = SubElement(robot, "link", name=f"{prefix}{i + 1}")
+        links.append(link)
         SubElement(joint, "child", link=f"{prefix}{i + 1}")
         if kind != "fixed":
             SubElement(joint, "axis", xyz=text(step.axis))
             # Its controller axis has the limits.
             SubElement(joint, "limit", ENDLESS)
-        if kind == "continuous":
+        if kind == "continuous" and i not in bare:
             axis = step.axis
             low = i == 0 and step.xyz[2] < radii[i] and axis == _UP
             primitives.joint(link, radii[i], axis, scale(_UP, radii[i] * 1.3) if low else ORIGIN)
         elif slide is not None and not stands:
             _quill(link, step, slide, radii[i])
-    return link
+    return links
 
 
 def _slides(group: GroupConfig, step: ChainLink) -> bool:
