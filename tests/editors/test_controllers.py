@@ -115,5 +115,9 @@ def test_connects_on_request_and_loads_the_confirmed_plan(opened, simulator):
 
     module.hover()
     module.get_by_role("button", name="Compare the module with the workspace").click()
-    page.locator(".diff-editor, .monaco-diff-editor").first.wait_for(timeout=30_000)
+    page.locator(".monaco-diff-editor .view-line", has_text="WaitTime 0.25").first.wait_for(
+        timeout=30_000
+    )
+    # The text that was opened before the upload is not the controller's any more.
+    assert page.locator(".view-line", has_text="WaitTime 0.5").count() == 0
     picture(page, "compare")

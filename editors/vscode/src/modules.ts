@@ -15,8 +15,6 @@ interface Source {
 
 /** Documents with the texts of modules as the controller has them. */
 export class ModuleTexts implements vscode.TextDocumentContentProvider, vscode.Disposable {
-  private readonly changed = new vscode.EventEmitter<vscode.Uri>();
-  readonly onDidChange = this.changed.event;
   private readonly plans = new Map<string, string>();
   private readonly pointers = new Map<string, readonly Task[]>();
   private readonly mark = vscode.window.createTextEditorDecorationType({
@@ -29,7 +27,6 @@ export class ModuleTexts implements vscode.TextDocumentContentProvider, vscode.D
   constructor(private readonly passwords: Passwords) {
     const plans = { provideTextDocumentContent: (uri: vscode.Uri) => this.plans.get(uri.path) ?? "" };
     this.ends = [
-      this.changed,
       this.mark,
       vscode.workspace.registerTextDocumentContentProvider(SCHEME, this),
       vscode.workspace.registerTextDocumentContentProvider(PLAN, plans),
@@ -56,7 +53,6 @@ export class ModuleTexts implements vscode.TextDocumentContentProvider, vscode.D
   /** Open a module read only, at a line from 1, as the controller has it now. */
   async open(host: string, task: string, module: string, line?: number): Promise<void> {
     const uri = uriOf({ host, task, module });
-    this.changed.fire(uri);
     const document = await vscode.workspace.openTextDocument(uri);
     const at = line === undefined ? undefined : new vscode.Position(Math.max(0, line - 1), 0);
     await vscode.window.showTextDocument(document, { preview: true, ...(at ? { selection: new vscode.Range(at, at) } : {}) });
@@ -65,13 +61,12 @@ export class ModuleTexts implements vscode.TextDocumentContentProvider, vscode.D
 
   async compare(host: string, task: string, module: string, file: vscode.Uri): Promise<void> {
     const uri = uriOf({ host, task, module });
-    this.changed.fire(uri);
     await vscode.commands.executeCommand("vscode.diff", uri, file, `${module}: ${host} ↔ workspace`);
   }
 
   /** Show a plan beside the editor. */
   async showPlan(plan: UploadPlan): Promise<void> {
-    const uri = vscode.Uri.from({ scheme: PLAN, path: `/${plan.id}/plan for ${plan.module}.diff` });
+    const uri = vscode.Uri.from({ scheme: PLAN, path: `/${(opened += 1)}/plan for ${plan.module}.diff` });
     this.plans.set(uri.path, plan.text);
     const document = await vscode.workspace.openTextDocument(uri);
     await vscode.window.showTextDocument(document, { preview: true, preserveFocus: true });
@@ -94,8 +89,13 @@ export class ModuleTexts implements vscode.TextDocumentContentProvider, vscode.D
   }
 }
 
+/** Number of opened documents: VS Code keeps the text of an address, which would be old by the next time. */
+let opened = 0;
+
 function uriOf(source: Source): vscode.Uri {
-  return vscode.Uri.from({ scheme: SCHEME, path: `/${source.task}/${source.module}.mod`, query: JSON.stringify(source) });
+  const host = source.host.replace(/^\w+:\/\//, "").replace(/[/?#]/g, "_");
+  const path = `/${(opened += 1)}/${source.task}/${source.module} (${host}).mod`;
+  return vscode.Uri.from({ scheme: SCHEME, path, query: JSON.stringify(source) });
 }
 
 function read(uri: vscode.Uri): Source {
