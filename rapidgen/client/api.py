@@ -21,7 +21,7 @@ from rapidgen.client.core.motion import CommandedMotion
 from rapidgen.client.core.point_source import PointSource
 from rapidgen.client.core.robot import Core, Timeouts
 from rapidgen.client.core.state import Driver, Event, Feedback, Progress, State
-from rapidgen.client.errors import InvalidProgram, InvalidTarget
+from rapidgen.client.errors import InvalidProgram, InvalidTarget, NotSupported
 from rapidgen.client.pose import Pose, pose_of
 from rapidgen.client.program import Program, joints_of
 from rapidgen.client.recording import JointRecording
@@ -209,6 +209,7 @@ class RobotApi(Generic[R]):
             from rapidgen.client.collisions import cell_check
 
             self._core.collisions = cell_check(cell, configuration_of(target), group)
+            self._core.collisions.position = self._position
 
     def __repr__(self) -> str:
         with self._runner.guard:
@@ -221,6 +222,22 @@ class RobotApi(Generic[R]):
         if group is None or state is None:
             return f"<p>{escape(caption)}</p>"
         return display.state_table(caption, group, state.joints)
+
+    def _position(self) -> tuple[float, ...]:
+        with self._runner.guard:
+            return self._core.start
+
+    @property
+    def cell(self) -> "CellCheck":
+        """The collision check of `cell=...`: `robot.cell.attach("part")`.
+
+        Raises NotSupported for a robot without one.
+        """
+        if self._core.collisions is None:
+            raise NotSupported.because(
+                "RG624", "the robot was created without a cell", 'Robot(..., cell="cell.yaml")'
+            )
+        return self._core.collisions
 
     # Connection
 

@@ -7,7 +7,7 @@ The path of a trajectory is that of its points, with the corners that the driver
 the configured zone, and half of a segment. The path of a program are the samples of its check.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path as FilePath
 
 import numpy as np
@@ -15,7 +15,9 @@ import numpy as np
 from rapidgen.client.core.program_checks import CheckedProgram
 from rapidgen.client.program import ZONES
 from rapidgen.client.trajectory import Array
+from rapidgen.collision import gripping
 from rapidgen.collision.check import CollisionReport, check_path
+from rapidgen.collision.gripping import grip_of, with_parts
 from rapidgen.collision.path import Path
 from rapidgen.collision.world import World, build_world, sources_of
 from rapidgen.config.cell import load_cell
@@ -44,9 +46,12 @@ class CellCheck:
                 if one.task.casefold() == task.casefold():
                     groups.setdefault(one.name, one)
         paths = {group.name: config.path} if config.path.suffix else {}
-        self.world: World = build_world(
-            described, sources_of(described, tuple(groups.values()), paths)
+        self.world: World = with_parts(
+            build_world(described, sources_of(described, tuple(groups.values()), paths))
         )
+        """The present world: parts hang where they are gripped."""
+        self.position: Callable[[], Sequence[float]] | None = None
+        """Returns the robot's axis values, once it is connected."""
         self.group = group
         self._zone = ZONES[config.trajectory.zone]
 
@@ -54,6 +59,34 @@ class CellCheck:
     def diagnostics(self) -> tuple[Diagnostic, ...]:
         """Return warnings about the cell, such as links without shapes."""
         return self.world.diagnostics
+
+    @property
+    def held(self) -> Mapping[str, str]:
+        """Return the tools that hold parts, by part."""
+        return self.world.held
+
+    def attach(self, part: str, to: str = "", *, at: Sequence[float] | None = None) -> None:
+        """Let a tool hold a part: it moves with the tool in the checks that follow.
+
+        The cell file declares both under `attach`; `to` is needed if several tools may hold the
+        part. `at` are axis values in rad and m, by default the robot's present position. Raises
+        DiagnosticError RG829 (not declared) and RG830 (out of the tool's reach), NotReady.
+        """
+        grip = grip_of(self.world, part, to)
+        self.world = gripping.attach(self.world, grip, self._values(at))
+
+    def release(self, part: str, *, at: Sequence[float] | None = None) -> None:
+        """Let a part stay where it is; without effect if no tool holds it. Raises NotReady."""
+        if part in self.world.held:
+            self.world = gripping.release(self.world, part, self._values(at))
+
+    def _values(self, at: Sequence[float] | None) -> Array:
+        if at is None and self.position is not None:
+            at = self.position()
+        if at is None:
+            at = self.world.home[self.group.name]
+        row = np.array([at[: len(self.group.joints)]], dtype=np.float64)
+        return self.world.values({self.group.name: row})
 
     def check_points(
         self,
@@ -88,9 +121,8 @@ class CellCheck:
         tcp, turn = self._zone.tcp, self._zone.angle
         if self._zone.stops:
             return np.zeros(len(values) - 1)
-        tree = self.world.scene.tree
-        rotations, positions, _ = tree.poses(values)
-        node = len(tree.nodes) - 1
+        rotations, positions, _ = self.world.scene.tree.poses(values)
+        node = self._last_node
         way = np.linalg.norm(np.diff(positions[:, node], axis=0), axis=1)
         between = np.einsum("nji,njk->nik", rotations[:-1, node], rotations[1:, node])
         cosine = (np.trace(between, axis1=1, axis2=2) - 1) / 2
@@ -99,6 +131,13 @@ class CellCheck:
         turning = np.where(angle > 1e-6, turn / np.maximum(angle, 1e-9), 0.0)
         result: Array = np.minimum(np.maximum(linear, turning), 0.5)
         return result
+
+    @property
+    def _last_node(self) -> int:
+        """Return the node of the robot's last joint."""
+        own = self.world.columns[self.group.name]
+        mix = np.abs(self.world.scene.tree.mix[:, own]).sum(axis=1)
+        return int(np.flatnonzero(mix)[-1])
 
     def check_program(self, checked: CheckedProgram) -> CollisionReport:
         """Check the samples of a program's path, one a second.
@@ -110,8 +149,7 @@ class CellCheck:
         values = self.world.values({self.group.name: rows})
         path = Path.sampled(np.arange(float(max(len(values), 2))), _at_least_two(values))
         slack = path.slack.copy()
-        tree = self.world.scene.tree
-        tcp = tree.poses(values)[1][:, len(tree.nodes) - 1]
+        tcp = self.world.scene.tree.poses(values)[1][:, self._last_node]
         for c in range(1, len(numbers) - 1):
             zone = checked.program.steps[numbers[c]].zone
             if numbers[c] == numbers[c + 1] or zone.stops:

@@ -37,14 +37,18 @@ class Path:
 
         `shares` (n - 1,) is the part of each segment that a corner may take at each of its ends, 0
         to 0.5. A curve from A to B inside the triangle with the corner P is at most |A + B - 2 P| /
-        2 away from the legs, in each joint.
+        2 away from the legs, in each joint; and at most |A - P| away from the leg to B, which is
+        less where the leg to A is short.
         """
         if len(times) < 3:
             return cls.linear(times, values)
         step = np.diff(values, axis=0)
         share = np.clip(shares, 1e-6, 0.5)[:, None]
         bend = np.zeros_like(values)
-        bend[1:-1] = np.abs(step[1:] * share[1:] - step[:-1] * share[:-1]) / 2
+        to_b, from_a = step[1:] * share[1:], step[:-1] * share[:-1]
+        bounds = np.abs(np.stack([(to_b - from_a) / 2, from_a, to_b]))
+        least = bounds.sum(axis=2).argmin(axis=0)
+        bend[1:-1] = bounds[least, np.arange(len(least))]
         # Three segments for each leg: corner, straight, corner.
         knots = [values[:-1], values[:-1] + share * step, values[1:] - share * step]
         places = np.stack(knots, axis=1).reshape(-1, values.shape[1])

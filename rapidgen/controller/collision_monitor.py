@@ -107,7 +107,7 @@ class StoppedRobots(WatchedRobots, Protocol):
 class CollisionMonitor:
     """Watches all robots of a controller from its creation.
 
-    Raises DiagnosticError for a cell that describes no world (RG825 to RG840), and
+    Raises DiagnosticError for a cell that describes no world (RG825 to RG833, RG847), and
     ModuleNotFoundError for meshes without coal. All methods belong to the controller's thread.
     """
 
