@@ -286,7 +286,7 @@ class RobotApi(Generic[R]):
         """
         with self._runner.guard:
             egm = flows.guidance.settings(self._core)
-        config = configuration_of(self._target)
+        config = self.configuration
         # A group with `egm:` comes from a configuration.
         assert config is not None
         return config, egm, LOOPBACK if self.address.is_loopback else egm.address
@@ -330,6 +330,11 @@ class RobotApi(Generic[R]):
                 self._core.state_port.listeners.remove(recording)
 
     # Motion
+
+    @property
+    def configuration(self) -> RobotConfig | None:
+        """Configuration of the target; None for an address alone."""
+        return configuration_of(self._target)
 
     @property
     def pose(self) -> Pose:

@@ -4,6 +4,7 @@ The CSV has `time,<joint names>` in s and rad (m).
 """
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,6 +13,9 @@ from rapidgen.client.core.group import Group
 from rapidgen.client.core.state import Feedback, State
 from rapidgen.client.core.state_port import Sample
 from rapidgen.client.trajectory import Array, Trajectory
+
+if TYPE_CHECKING:
+    import pandas
 
 
 class JointRecording:
@@ -89,6 +93,10 @@ class JointRecording:
     def to_csv(self, path: Path) -> None:
         """Write `time,<joint names>`. Raises OSError."""
         self.trajectory().to_csv(path)
+
+    def to_dataframe(self) -> "pandas.DataFrame":
+        """Return a pandas DataFrame, as `Trajectory.to_dataframe`."""
+        return self.trajectory().to_dataframe()
 
 
 class CsvWriter:

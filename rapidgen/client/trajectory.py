@@ -16,6 +16,8 @@ from rapidgen.client.errors import InvalidTrajectory
 from rapidgen.client.html_tables import table
 
 if TYPE_CHECKING:
+    import pandas
+
     from rapidgen.client.core.group import Group
     from rapidgen.client.core.state import State
     from rapidgen.client.program import ZoneLike
@@ -229,6 +231,17 @@ class Trajectory:
     def to_csv(self, path: str | PathLike[str]) -> None:
         """Write `time,<joint names>`; numbers read back to the same values."""
         files.write_csv(Path(path), self.times, self.positions, self.names)
+
+    def to_dataframe(self) -> "pandas.DataFrame":
+        """Return a pandas DataFrame: index `time` in s, a column for each joint in rad or m.
+
+        Joints without names are `joint_1` and so on. Raises ModuleNotFoundError without pandas.
+        """
+        import pandas
+
+        names = self.names or [f"joint_{i + 1}" for i in range(self.positions.shape[1])]
+        index = pandas.Index(self.times, name="time")
+        return pandas.DataFrame(self.positions, index=index, columns=list(names))
 
     def reordered(self, names: Sequence[str]) -> "Trajectory":
         """Return a copy with columns in the order of `names`.

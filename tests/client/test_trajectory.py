@@ -2,6 +2,7 @@
 
 import contextlib
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -356,3 +357,12 @@ def test_timed_wants_the_joints_of_the_robot(irb120):
         path = Trajectory.from_points(ends[:, :width], seconds=1.0, names=names)
         with pytest.raises(InvalidTrajectory, match=message):
             path.timed(irb120)
+
+
+def test_dataframe_has_times_and_joints():
+    path = Trajectory.from_points([[0, 1], [2, 3]], seconds=1, names=["a", "b"])
+    frame = path.to_dataframe()
+    assert frame.index.name == "time"
+    assert list(frame.columns) == ["a", "b"]
+    assert frame.loc[1.0, "b"] == 3
+    assert list(replace(path, names=()).to_dataframe().columns) == ["joint_1", "joint_2"]
