@@ -46,11 +46,16 @@ def main():
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
         )
+        config = Path(folder) / "x.yaml"
+        config.write_text("model: irb120\ncontroller: {type: irc5_compact, robotware: 6.15}\n")
         hello = Path(folder) / "hello.mod"
         hello.write_text(HELLO)
         cases = {
             "import jinja2, pydantic": [*PYTHON, "-c", "import jinja2, pydantic"],
             "rapidgen --help": [*rapidgen, "--help"],
+            "rapidgen robots": [*rapidgen, "robots"],
+            "rapidgen new": [*rapidgen, "new", "new.yaml", "--robot", "irb120", "--force"],
+            "rapidgen check x.yaml": [*rapidgen, "check", str(config)],
             "rapidgen run hello.mod": [*rapidgen, "run", str(hello)],
             "rapidgen build irb120": [*rapidgen, "build", "irb120", "-o", f"{folder}/out"],
             "rapidgen build (URDF)": [*rapidgen, "build", str(from_urdf), "-o", f"{folder}/urdf"],

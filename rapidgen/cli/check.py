@@ -47,10 +47,18 @@ class _Settings:
     """Settings of a check: those of the command line, else of the project file."""
 
     dialect: "Dialect | None"
-    payload: "Payload"
+    robot_payload: "Payload | None"
     strict: bool
     project: "Project | None"
     encoding: FileEncoding = FileEncoding.LATIN_1
+
+    @property
+    def payload(self) -> "Payload":
+        """Return the maximum payload of the robot, else that of the strongest ABB robot."""
+        from rapidgen.config.plausibility import LARGEST_PAYLOAD
+        from rapidgen.rapid.checks import Payload
+
+        return self.robot_payload or Payload("any robot of ABB", LARGEST_PAYLOAD)
 
     def dialect_of(self, system: "System | None" = None) -> "Dialect":
         """Return the dialect that was asked for, else that of a system's release."""
@@ -228,8 +236,7 @@ def _settings(
     if robot or not project.robot:
         payload = _payload(robot)
     else:
-        known = _payload_of(project.robot, project_robots(project))
-        payload = known or _payload("")
+        payload = _payload_of(project.robot, project_robots(project))
     dialect = _dialect(robotware, encoding)
     return _Settings(dialect, payload, is_strict, project, encoding)
 
@@ -295,13 +302,9 @@ def _dialect(robotware: str | None, encoding: FileEncoding) -> "Dialect | None":
     return Dialect(release(robotware), encoding=encoding.value)
 
 
-def _payload(robot: str) -> "Payload":
-    """Return a robot's maximum payload; without a name, that of the strongest ABB robot."""
-    from rapidgen.config.plausibility import LARGEST_PAYLOAD
-    from rapidgen.rapid.checks import Payload
-
-    result = _payload_of(robot, _robots(robot)) if robot else None
-    return result or Payload("any robot of ABB", LARGEST_PAYLOAD)
+def _payload(robot: str) -> "Payload | None":
+    """Return a robot's maximum payload; None without a name, or if it is unknown."""
+    return _payload_of(robot, _robots(robot)) if robot else None
 
 
 def _robots(name: str) -> "Sequence[GroupConfig]":
@@ -312,10 +315,10 @@ def _robots(name: str) -> "Sequence[GroupConfig]":
 
 def _payload_of(name: str, groups: "Sequence[GroupConfig]") -> "Payload | None":
     """Return the largest payload of some groups; None if one is unknown."""
-    from rapidgen.rapid.checks import Payload
-
     if not groups or not all(group.max_payload for group in groups):
         return None
+    from rapidgen.rapid.checks import Payload
+
     return Payload(name, max(group.max_payload for group in groups))
 
 

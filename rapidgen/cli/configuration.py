@@ -26,32 +26,37 @@ def robots(
 
     `robots show NAME` prints axes, reach and sources.
     """
-    from rapidgen.config.catalogue import shipped_models, variant_named, variant_text
-    from rapidgen.config.variant_library import variants
-    from rapidgen.config.variant_model import missing_figures, model_name, names
+    from rapidgen.config.registry import shipped_headings
     from rapidgen.diagnostics import refusal
 
     if text and text[0] == "show":
+        from rapidgen.config.catalogue import variant_named, variant_text
+
         for variant in variant_named(" ".join(text[1:])):
             typer.echo(variant_text(variant))
         return
     requested = [word.casefold() for word in text or ()]
-    models = shipped_models()
     if as_json:
         import json
 
-        typer.echo(json.dumps([model.as_json() for model in models], indent=2))
+        from rapidgen.config.catalogue import shipped_models
+
+        typer.echo(json.dumps([model.as_json() for model in shipped_models()], indent=2))
         return
-    lines = []
-    width = max(len(name) for name in (*(model.name for model in models), *names()))
-    for model in models:
-        versions = ", ".join(f"RW{g}" for g in model.generations)
-        lines.append(f"{model.name:<{width}}  {model.description} ({versions})")
+    rows = [
+        (name, f"{description} ({', '.join(f'RW{g}' for g in generations)})")
+        for name, (description, generations) in shipped_headings().items()
+    ]
     if known or requested:
+        from rapidgen.config.variant_library import variants
+        from rapidgen.config.variant_model import missing_figures, model_name
+
         for variant in (v for v in variants() if not v.model):
             missing = missing_figures(variant)
             name = "-" if missing else model_name(variant)
-            lines.append(f"{name:<{width}}  ABB {variant.name}" + _missing_text(missing))
+            rows.append((name, f"ABB {variant.name}" + _missing_text(missing)))
+    width = max(len(name) for name, _ in rows)
+    lines = [f"{name:<{width}}  {row}" for name, row in rows]
     displayed = [line for line in lines if all(word in line.casefold() for word in requested)]
     if not displayed:
         message = f"no robot matches {' and '.join(text or ())}"
@@ -160,7 +165,7 @@ def new(
     """
     from rapidgen.cli import terminal
     from rapidgen.cli.wizard import ask_open, ask_source
-    from rapidgen.config.from_description import DescriptionChoices
+    from rapidgen.config.draft import DescriptionChoices
     from rapidgen.config.scaffold import assignments, from_model, from_urdf, ranges, write_new
 
     if robot is None and urdf is None and terminal.is_terminal():

@@ -8,6 +8,7 @@ range, an unknown choice, a special type) are left to typer, which reports the e
 import os
 import re
 from collections.abc import Callable
+from enum import Enum
 from functools import partial
 from pathlib import Path
 from typing import Any, Final, Literal, TypeAlias, TypeVar, get_args, get_origin
@@ -91,6 +92,8 @@ def plain(kind: object, info: ParameterInfo, value: object) -> object:
         return _path(Path(value), info)
     if get_origin(kind) is Literal:
         return value if value in get_args(kind) else _NOT_PLAIN
+    if isinstance(kind, type) and issubclass(kind, Enum):
+        return next((one for one in kind if value in (one, one.value)), _NOT_PLAIN)
     return value if type(value) is kind and kind in (str, bool) else _NOT_PLAIN
 
 

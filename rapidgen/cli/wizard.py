@@ -7,7 +7,7 @@ from pathlib import Path
 
 import typer
 
-from rapidgen.config.from_description import DescriptionChoices
+from rapidgen.config.draft import DescriptionChoices
 from rapidgen.config.placeholders import OPEN
 from rapidgen.config.scaffold import ranges
 from rapidgen.diagnostics import DiagnosticError, render

@@ -3,7 +3,7 @@
 Figures are in the units of the controller: deg, mm, deg/s, mm/s (and /s²).
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from rapidgen.config.model import ChainLink
@@ -121,3 +121,21 @@ class DraftFindings:
     def failed(self) -> bool:
         """True when an error was found."""
         return any(d.severity is Severity.ERROR for d in self.found)
+
+
+@dataclass(frozen=True, slots=True)
+class DescriptionChoices:
+    """Answers of the user in addition to the description."""
+
+    joints: Mapping[str, str] = field(default_factory=dict)
+    ignore: tuple[str, ...] = ()
+    tips: tuple[str, ...] = ()
+    held_axes: tuple[str, ...] = ()
+    coupling: float | None = None
+    speed: float | None = None
+    """deg/s and mm/s for axes without a speed"""
+    ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    """deg or mm by joint; "" is for turning axes without a range"""
+    controller: str = ""
+    robotware: str = ""
+    """If either is empty, the values of the robot's type."""

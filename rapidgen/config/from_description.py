@@ -12,7 +12,7 @@ from pathlib import Path
 from rapidgen.config import schema
 from rapidgen.config.axis_sets import ROBOT_AXES
 from rapidgen.config.consistency import is_mirror
-from rapidgen.config.draft import JointDraft
+from rapidgen.config.draft import DescriptionChoices, JointDraft
 from rapidgen.config.model import ChainLink
 from rapidgen.config.placeholders import OPEN
 from rapidgen.config.recognition import Alignment
@@ -32,24 +32,6 @@ from rapidgen.diagnostics import DiagnosticError, Severity, refusal, suggest
 _PACKAGE = re.compile(r"package://([\w-]+)")
 _SIDE = re.compile(r"(?:^|_|rob|arm)([lr])(?:_|\d|$)|(?=left|right)([lr])")
 _EXTERNAL = tuple(f"eax_{letter}" for letter in "abcdef")
-
-
-@dataclass(frozen=True, slots=True)
-class DescriptionChoices:
-    """Answers of the user in addition to the description."""
-
-    joints: Mapping[str, str] = field(default_factory=dict)
-    ignore: tuple[str, ...] = ()
-    tips: tuple[str, ...] = ()
-    held_axes: tuple[str, ...] = ()
-    coupling: float | None = None
-    speed: float | None = None
-    """deg/s and mm/s for axes without a speed"""
-    ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    """deg or mm by joint; "" is for turning axes without a range"""
-    controller: str = ""
-    robotware: str = ""
-    """If either is empty, the values of the robot's type."""
 
 
 @dataclass(slots=True)

@@ -18,6 +18,25 @@ def shipped_names() -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in data_folder("robots").glob("*.yaml")))
 
 
+def shipped_headings() -> dict[str, tuple[str, tuple[int, ...]]]:
+    """Return description and RobotWare generations of all shipped models, by name.
+
+    Their files have both on one line each, so that a list of them needs no YAML.
+    """
+    result = {}
+    for name in shipped_names():
+        heading: dict[str, str] = {}
+        with (data_folder("robots") / f"{name}.yaml").open(encoding="utf-8") as file:
+            for line in file:
+                key, _, value = line.partition(": ")
+                heading[key] = value.strip()
+                if key == "generations":
+                    break
+        numbers = heading["generations"].strip("[]").split(",")
+        result[name] = heading["description"], tuple(int(number) for number in numbers)
+    return result
+
+
 def find_shipped(name: str, span: Span | None = None) -> Path:
     """Return the file of a model.
 

@@ -3,11 +3,12 @@
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rapidgen._atomic_write import write_whole
 from rapidgen.config import schema
 from rapidgen.config.catalogue import model_description
-from rapidgen.config.from_description import DescriptionChoices, GroupText, describe
+from rapidgen.config.draft import DescriptionChoices
 from rapidgen.config.load import load_config
 from rapidgen.config.model import RobotConfig
 from rapidgen.config.placeholders import OPEN
@@ -16,6 +17,9 @@ from rapidgen.config.variant_library import Variant, variants
 from rapidgen.config.variant_model import model_name, named
 from rapidgen.config.yaml_text import yaml_flow, yaml_text
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, refusal
+
+if TYPE_CHECKING:
+    from rapidgen.config.from_description import GroupText
 
 _IRC5, _OMNICORE = ("irc5", "6.15"), ("omnicore", "7.10")
 _OPTIONS = """
@@ -142,6 +146,8 @@ def from_urdf(
     `folder` is the folder of the new file. Unknown values are marked `???`. Raises DiagnosticError
     for a description without an ABB robot.
     """
+    from rapidgen.config.from_description import describe  # slow import, only for URDF
+
     message = answers or DescriptionChoices()
     if not str(urdf).isprintable():
         raise refusal(
@@ -176,7 +182,7 @@ def from_urdf(
     return "\n".join(lines) + "\n" + _OPTIONS + ("" if several else _GROUP_OPTIONS)
 
 
-def _group_lines(group: GroupText, source: Sequence[str]) -> list[str]:
+def _group_lines(group: "GroupText", source: Sequence[str]) -> list[str]:
     words = [line for line in group.head if line.startswith("#")]
     tips = [f"  {line}" for line in group.head if not line.startswith("#")]
     width = max(len(line.text(0).split("  #")[0]) for line in group.joints)

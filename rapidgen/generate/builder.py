@@ -6,6 +6,7 @@ import os
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rapidgen import __version__
 from rapidgen._data import data_folder
@@ -14,15 +15,7 @@ from rapidgen.config import to_manifest
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import layout
-from rapidgen.generate.cell_routines import check_routines
 from rapidgen.generate.context import group_context, used_constants
-from rapidgen.generate.existing_controller import (
-    Cell,
-    check_data,
-    check_link_conflicts,
-    missing,
-    used_signals,
-)
 from rapidgen.generate.lint import lint
 from rapidgen.generate.name_checks import check_tasks, naming
 from rapidgen.generate.numbers import literal
@@ -34,11 +27,14 @@ from rapidgen.system import ModuleFile, System, TaskSpec, expand_lines, write_cf
 from rapidgen.system.build_loading import BaseController, additions, delivered, of_backup, onto
 from rapidgen.system.cfg_reader import ModuleEntry
 
+if TYPE_CHECKING:
+    from rapidgen.generate.existing_controller import Cell
+
 # Placeholder of the build's id, of equal length, until all its inputs exist.
 _UNKNOWN = "{build---id}"
 
 
-def build(config: RobotConfig, cell: Cell | None = None) -> Output:
+def build(config: RobotConfig, cell: "Cell | None" = None) -> Output:
     """Return all files for one controller; for `cell`, the missing parts.
 
     `config` must be fitted to `cell`.
@@ -58,6 +54,10 @@ def build(config: RobotConfig, cell: Cell | None = None) -> Output:
     parameters = cfg_files(config, system)
     used = {}
     if cell is not None:
+        # Slow imports: the checker of RAPID and the reader of backups.
+        from rapidgen.generate.cell_routines import check_routines
+        from rapidgen.generate.existing_controller import check_data, missing, used_signals
+
         check_data(config, cell.system)
         check_routines(config, cell.system)
         used = used_signals(parameters, cell)
@@ -74,6 +74,8 @@ def build(config: RobotConfig, cell: Cell | None = None) -> Output:
     files.append(manifest_file(files, _head(config, build_id, files, used)))
     output = Output(config.name, build_id, tuple(files))
     if cell is not None:
+        from rapidgen.generate.existing_controller import check_link_conflicts
+
         check_link_conflicts(
             make_system(config, output, under=of_backup(cell.cfg, cell.system)), output
         )

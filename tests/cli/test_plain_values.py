@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+from enum import Enum
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -26,7 +27,15 @@ SAID = [
     ["--there", "/nowhere"], ["--there", "/"],
     ["--more", "one", "--more", "two"], ["--name", "3"], ["--on"], ["--off"], ["--on", "--off"],
     ["--named", "x"],
+    ["--kind", "round"], ["--kind", "ROUND"], ["--kind", "flat"], ["--kind", ""],
 ]  # fmt: skip
+
+
+class Kind(str, Enum):
+    """A choice, as the formats of `check`."""
+
+    ROUND = "round"
+    SQUARE = "square"
 
 
 def made(words, cls=None):
@@ -46,8 +55,10 @@ def made(words, cls=None):
         name: str = "",
         switch: Annotated[bool, typer.Option("--on/--off")] = True,
         named: Annotated[str, typer.Option(callback=lambda text: text + "!")] = "n",
+        kind: Kind = Kind.SQUARE,
     ):
-        result.append((files, count, time, cycle, file, target, more, name, switch, named))
+        values = (files, count, time, cycle, file, target, more, name, switch, named, kind)
+        result.append(values)
 
     try:
         typer.main.get_command(app).main(args=words, standalone_mode=False)

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from rapidgen.config import load_config, shipped_names
-from rapidgen.config.registry import find_shipped
+from rapidgen.config.catalogue import shipped_models
+from rapidgen.config.registry import find_shipped, shipped_headings
 from rapidgen.config.yaml_tree import parse, to_python
 from rapidgen.diagnostics import Severity
 
@@ -207,3 +208,8 @@ def test_a_shipped_model_needs_no_heavy_import():
         [sys.executable, "-c", program], capture_output=True, text=True, check=True, timeout=60
     )
     assert done.stdout == "[]\n"
+
+
+def test_headings_of_shipped_models_are_those_of_their_configurations():
+    complete = {m.name: (m.description, m.generations) for m in shipped_models()}
+    assert shipped_headings() == complete

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from ruamel.yaml import YAML
 
 from rapidgen.config import load_config
-from rapidgen.config.from_description import DescriptionChoices
+from rapidgen.config.draft import DescriptionChoices
 from rapidgen.config.scaffold import from_urdf, write_new
 from rapidgen.config.yaml_text import yaml_flow, yaml_text
 from rapidgen.ros.package import CellMember, ros1_package, ros2_cell, ros2_packages

@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rapidgen.config import load_config
-from rapidgen.config.from_description import DescriptionChoices
+from rapidgen.config.draft import DescriptionChoices
 from rapidgen.config.model import RobotConfig
 from rapidgen.config.scaffold import from_urdf, write_new
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
