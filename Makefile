@@ -55,7 +55,7 @@ types: $(STAMP)
 	time $(BIN)/mypy
 
 # The node on the real rclpy, which PyPI has for Python 3.11 only; elsewhere `unit` tests it on a stand-in.
-ROS_TESTS := $(addprefix tests/ros/,test_node.py test_operator_node.py test_own_services.py test_process.py test_ros2_control.py test_standin.py test_standin_fields.py)
+ROS_TESTS := $(addprefix tests/ros/,test_node.py test_operator_node.py test_own_services.py test_process.py test_ros2_control.py test_standin.py test_standin_fields.py test_stream_node.py)
 ros-tests:
 	@PYTHON="$(PYTHON)" .ci/ros
 	@test ! -e build/ros/.made || { time PYTHONPATH=$(CURDIR) build/ros/bin/python -m pytest -q -p no:cacheprovider \

@@ -104,16 +104,16 @@ class ActiveGoal:
         self.stops = stops
         self.ending = asyncio.Event()
         self.over = asyncio.Event()
-        self.is_replaced = False
+        self.replaced_by = ""
         self.is_called_off = False
 
     def cancel(self) -> None:
         """Cancel it, on the follower's loop; `follow` returns at rest."""
         self.ending.set()
 
-    def replace(self) -> None:
-        """End it because another goal replaces it."""
-        self.is_replaced = True
+    def replace(self, by: str) -> None:
+        """End it because a newer goal or command replaces it."""
+        self.replaced_by = by
         self.ending.set()
 
     def cancel_pending(self) -> None:
@@ -194,9 +194,15 @@ class GoalExecutor:
                     "another goal is executed: cancel it and wait for its end "
                     "(replace: approach would stop it)",
                 )
-            other.replace()
+            other.replace("a newer goal")
             await other.over.wait()
         self._current = under
+
+    async def preempt(self) -> None:
+        """End the active goal for a command of a topic; return when the robot is at rest."""
+        while (goal := self._current) is not None:
+            goal.replace("a command of a topic")
+            await goal.over.wait()
 
     async def _carried_out(
         self, requested: ValidatedGoal, under: ActiveGoal, tell: Callable[[GoalFeedback], None]
@@ -508,8 +514,9 @@ async def _stopped(execution: AsyncExecution) -> Outcome | None:
 def _ended_early(under: ActiveGoal, where: str) -> Outcome:
     if under.is_called_off:
         return Outcome(FinalStatus.ABORTED, Code.INVALID_GOAL, f"stopped on request {where}")
-    if under.is_replaced:
-        return Outcome(FinalStatus.ABORTED, Code.INVALID_GOAL, f"replaced by a newer goal {where}")
+    if under.replaced_by:
+        text = f"replaced by {under.replaced_by} {where}"
+        return Outcome(FinalStatus.ABORTED, Code.INVALID_GOAL, text)
     return Outcome(FinalStatus.CANCELED, Code.SUCCESSFUL, f"cancelled {where}")
 
 

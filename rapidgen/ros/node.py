@@ -60,6 +60,8 @@ from rapidgen.ros.status_messages import (
     RobotHealth,
     RobotStatus,
 )
+from rapidgen.ros.stream_commands import CommandReader, StreamReport, StreamSettings
+from rapidgen.ros.stream_interface import StreamInterface, seconds
 from rapidgen.ros.user_services import (
     ARE_THERE,
     MISSING,
@@ -133,8 +135,16 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
             # One clock for all groups: two of them would go back and forth.
             clock = parameters.publish_clock and not self._doors
             name = f"{group.name}_controller"
+            links = f"{group.name}_" if several else ""
+            stream = StreamSettings(
+                group,
+                CommandReader.of(group, parameters.tf_prefix, links),
+                preempt=parameters.preempt,
+                speed=parameters.stream_speed,
+                idle=parameters.stream_idle,
+            )
             self._doors.append(
-                GroupInterface(self, make, parameters, space, name, tells_clock=clock)
+                GroupInterface(self, make, parameters, space, name, stream, tells_clock=clock)
             )
         if parameters.operator is not None:
             self._operator = OperatorInterface(self, parameters.operator)
@@ -295,11 +305,17 @@ class GroupInterface:
         parameters: Parameters,
         space: str,
         controller: str,
+        stream: StreamSettings,
         *,
         tells_clock: bool,
     ) -> None:
         self.link = RobotLink(
-            make, parameters.policy, node.now, self, is_clock=parameters.publish_clock
+            make,
+            parameters.policy,
+            node.now,
+            self,
+            is_clock=parameters.publish_clock,
+            stream=stream,
         )
         self._node = node
         self._prefix = parameters.tf_prefix
@@ -343,6 +359,7 @@ class GroupInterface:
             for kind, name, serve in services(self.link)
         ]
         self._action = self._make_action() if parameters.has_action else None
+        self._stream = StreamInterface(node, self.link, space, parameters.tf_prefix)
 
     def _make_action(self) -> ActionServer:
         return ActionServer(
@@ -368,6 +385,7 @@ class GroupInterface:
         """Destroy all entities of the group."""
         if self._action is not None:
             self._action.destroy()
+        self._stream.destroy()
         for service in self._services:
             self._node.destroy_service(service)
         self._node.destroy_subscription(self._heard)
@@ -425,6 +443,26 @@ class GroupInterface:
         ]
         self._diagnostics.publish(diagnostics)
         return stamp
+
+    def streaming(self, report: StreamReport) -> None:
+        """See `LinkListener`."""
+        diagnostics = DiagnosticArray()
+        diagnostics.header.stamp = _time(round(self.link.now() * 1e9))
+        level = Level.WARN if report.code else Level.OK
+        diagnostics.status = [
+            DiagnosticStatus(
+                level=bytes([level]),
+                name=f"{self._node.get_name()}: {self._name} streaming",
+                message=report.text,
+                values=[
+                    KeyValue(key="code", value=report.code),
+                    KeyValue(key="topic", value=report.topic),
+                ],
+            )
+        ]
+        self._diagnostics.publish(diagnostics)
+        if report.code:
+            self._node.get_logger().warning(f"{self._name}: {report.text} [{report.code}]")
 
     def _received(self, diagnostics: Message) -> None:
         """Notice another node on this robot."""
@@ -492,7 +530,7 @@ class GroupInterface:
             names=[name.removeprefix(self._prefix) for name in trajectory.joint_names],
             points=[
                 Point(
-                    _seconds(point.time_from_start),
+                    seconds(point.time_from_start),
                     point.positions,
                     point.velocities,
                     point.accelerations,
@@ -500,10 +538,10 @@ class GroupInterface:
                 )
                 for point in trajectory.points
             ],
-            stamp=_seconds(trajectory.header.stamp),
+            stamp=seconds(trajectory.header.stamp),
             path_tolerance=[self._tolerance(report) for report in request.path_tolerance],
             goal_tolerance=[self._tolerance(report) for report in request.goal_tolerance],
-            goal_time_tolerance=_seconds(request.goal_time_tolerance),
+            goal_time_tolerance=seconds(request.goal_time_tolerance),
             has_multi_dof=bool(request.multi_dof_trajectory.points),
         )
 
@@ -554,11 +592,6 @@ async def _ended(count: int) -> None:
     others = asyncio.all_tasks() - {asyncio.current_task()}
     if count and others:
         await asyncio.gather(*others, return_exceptions=True)
-
-
-def _seconds(report: Message) -> float:
-    """Convert a Time or Duration to s."""
-    return float(report.sec) + float(report.nanosec) * 1e-9
 
 
 def _time(stamp: int) -> Time:

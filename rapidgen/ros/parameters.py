@@ -33,6 +33,9 @@ DECLARED: tuple[tuple[str, str | bool | float | list[str], str], ...] = (
     ("goal_tolerance", 0.01, "default of a goal's end, rad or m; 0: none"),
     ("goal_time_tolerance", 0.0, "default of goal_time_tolerance, s; 0: none"),
     ("stamp_tolerance", 0.2, "s by which header.stamp may be past"),
+    ("preempt", False, "a command of a streaming topic ends the goal that is executed"),
+    ("stream_speed", 0.25, "share of the speeds and accelerations for streaming topics, to 1"),
+    ("stream_idle", 10.0, "s without motion after which a session of streaming ends"),
     ("controller", "", "HOST[:PORT] of Robot Web Services; empty: no services of the operator"),
     ("controller_user", "Default User", "user there; the password is in RAPIDGEN_PASSWORD"),
     ("controller_fingerprint", "", "of the controller's certificate; empty: the known ones"),
@@ -64,6 +67,9 @@ class Parameters:
     has_action: bool
     """False: trajectories and joint_states are those of ros2_control's controllers."""
     policy: Policy
+    preempt: bool
+    stream_speed: float
+    stream_idle: float
     operator: OperatorAccess | None
     """None: no services of the operator."""
 
@@ -80,6 +86,11 @@ def read(values: Mapping[str, Any], environment: Mapping[str, str]) -> Parameter
     for name in ("path_tolerance", "goal_tolerance", "goal_time_tolerance", "stamp_tolerance"):
         if not 0 <= values[name] < math.inf:
             result.append(_fault(f"{name} is {values[name]:g}", "it is 0 or more"))
+    if not 0 < values["stream_speed"] <= 1:
+        report = f"stream_speed is {values['stream_speed']:g}"
+        result.append(_fault(report, "it is above 0 and at most 1"))
+    if not 1 <= values["stream_idle"] < math.inf:
+        result.append(_fault(f"stream_idle is {values['stream_idle']:g}", "it is 1 s or more"))
     allowed = frozenset(filter(None, values["operate"]))
     if unknown := sorted(allowed - GUARDED):
         report = f"operate names '{unknown[0]}'"
@@ -116,6 +127,9 @@ def read(values: Mapping[str, Any], environment: Mapping[str, str]) -> Parameter
             cast("Literal['refuse', 'approach']", values["replace"]),
             cast("Literal['refuse', 'resample']", values["dense"]),
         ),
+        values["preempt"],
+        values["stream_speed"],
+        values["stream_idle"],
         OperatorAccess(
             values["controller"],
             values["controller_user"],

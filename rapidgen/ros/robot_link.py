@@ -7,7 +7,7 @@ loop. Its observations go to a `LinkListener`, which publishes them.
 import asyncio
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from rapidgen.client.aio import AsyncRobot
 from rapidgen.client.core.state import State
@@ -24,8 +24,13 @@ from rapidgen.ros.status_messages import (
     robot_status,
     unknown_status,
 )
+from rapidgen.ros.stream_commands import Command, StreamReport, StreamSettings
 from rapidgen.ros.time_stamps import RosTimeEstimator
 from rapidgen.wire.simple_message.spec import Feature, Reason
+
+if TYPE_CHECKING:
+    from rapidgen.client.egm import EgmState
+    from rapidgen.ros.stream_execution import StreamExecutor
 
 AGAIN = 1.0
 """s between two attempts to connect."""
@@ -43,6 +48,9 @@ class LinkListener(Protocol):
     def note(self, text: str) -> None:
         """Log a change of the link, or the result of a goal."""
 
+    def streaming(self, report: StreamReport) -> None:
+        """Publish and log a change of the streaming topics."""
+
 
 class RobotLink:
     """Connection of one motion group to ROS."""
@@ -55,10 +63,12 @@ class RobotLink:
         public: LinkListener,
         *,
         is_clock: bool = False,
+        stream: StreamSettings | None = None,
     ) -> None:
         """`make` returns an unconnected robot; `now` is s of ROS time.
 
-        With `is_clock` the controller's clock starts there and continues by itself.
+        With `is_clock` the controller's clock starts there and continues by itself. `stream`: None
+        without streaming topics.
         """
         self._make = make
         self._policy = policy
@@ -66,10 +76,15 @@ class RobotLink:
         self._is_clock = is_clock
         self._public = public
         self._stamps = RosTimeEstimator(is_clock=is_clock)
+        self._stream = stream
+        self._streamer: StreamExecutor | None = None
+        self._egm_stamps = RosTimeEstimator()
+        self._fed: EgmState | None = None
         self._robot: AsyncRobot | None = None
         self._follower: GoalExecutor | None = None
         self._why = "not connected yet"
         self._paused_at: tuple[float, ...] | None = None
+        self._refused = float("-inf")
         self.stops = 0
         """Number of requests to stop. A goal that was accepted before the last one never starts."""
 
@@ -91,16 +106,21 @@ class RobotLink:
             try:
                 async with robot:
                     self._came(robot)
-                    await self._publish(robot)
+                    await self._serve(robot)
             except RobotError as error:
                 self._lost(robot, reason(error))
             finally:
-                self._robot = self._follower = None
+                self._robot = self._follower = self._streamer = None
             await asyncio.sleep(AGAIN)
 
     def _came(self, robot: AsyncRobot) -> None:
         self._robot = robot
         self._follower = GoalExecutor(robot, self._policy, self.now, self._public.note)
+        if self._stream is not None and self._stream.group.egm is not None:
+            # Late: it needs an extra.
+            from rapidgen.ros.stream_execution import StreamExecutor
+
+            self._streamer = StreamExecutor(robot, self._stream, self._follower, self.now, self)
         self._why = ""
         self._public.note(f"connected to {robot.address}")
 
@@ -110,6 +130,22 @@ class RobotLink:
             self._why = why
             self._public.note(f"no link to the robot at {robot.address}: {why}")
         self._public.status(unknown_status(), no_link(why, str(robot.address)))
+
+    async def _serve(self, robot: AsyncRobot) -> None:
+        """Publish, and execute commands, until the link is lost."""
+        tasks = [asyncio.ensure_future(self._publish(robot))]
+        if self._streamer is not None:
+            tasks.append(asyncio.ensure_future(self._streamer.run()))
+        try:
+            done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+            for task in done:
+                task.result()
+        finally:
+            if self._streamer is not None:
+                self._streamer.end()
+            for task in tasks:
+                task.cancel()
+            await asyncio.gather(*tasks, return_exceptions=True)
 
     async def _publish(self, robot: AsyncRobot) -> None:
         """Publish each sample once, until the link is lost."""
@@ -123,11 +159,47 @@ class RobotLink:
                 state = await robot.next_state()
                 moment, joints, velocity = state.time, state.joints, state.velocity
             stamp = self._stamps.stamp(moment, self._machine())
-            self._public.joint_states(JointStates(stamp, robot.group.names, joints, velocity))
+            if self._streamer is None or not self._streamer.is_measuring or self._is_clock:
+                self._public.joint_states(JointStates(stamp, robot.group.names, joints, velocity))
             report = health(state, robot.driver, str(robot.address))
             self._public.status(robot_status(state.status), report)
 
+    def measured(self, state: "EgmState") -> None:
+        """See `StreamListener`: 250 times in a second, in place of the driver's messages."""
+        before, self._fed = self._fed, state
+        if self._is_clock or before is None or state.controller_time <= before.controller_time:
+            return
+        passed = state.controller_time - before.controller_time
+        pairs = zip(state.joints, before.joints, strict=True)
+        velocity = tuple((a - b) / passed for a, b in pairs)
+        stamp = self._egm_stamps.stamp(state.controller_time, self._machine())
+        assert self._robot is not None
+        names = self._robot.group.names
+        self._public.joint_states(JointStates(stamp, names, state.joints, velocity))
+
+    def streaming(self, report: StreamReport) -> None:
+        """See `StreamListener`."""
+        self._public.streaming(report)
+
     # Requests of ROS
+
+    def command(self, topic: str, command: Command) -> None:
+        """Execute a command of a streaming topic, or report why it is ignored."""
+        if self._streamer is not None:
+            self._streamer.receive(topic, command)
+            return
+        if self._robot is None:
+            code, text = "RG621", f"no link to the robot: {self._why}"
+        else:
+            code = "RG695"
+            text = (
+                "it needs externally guided motion, and the configuration has no `egm:`; "
+                "add it, build and deploy, or send goals to the action"
+            )
+        now = asyncio.get_running_loop().time()
+        if now - self._refused > AGAIN:
+            self._refused = now
+            self._public.streaming(StreamReport(code, f"{topic} ignored: {text}", topic))
 
     async def follow(
         self, goal: Goal, tell: Callable[[GoalFeedback], None], under: ActiveGoal
@@ -140,7 +212,16 @@ class RobotLink:
         if under.stops not in (None, self.stops):
             under.cancel_pending()
         self._paused_at = None
+        try:
+            await self._release()
+        except RobotError as error:
+            return Outcome(FinalStatus.ABORTED, Code.INVALID_GOAL, reason(error))
         return await follower.follow(goal, tell, under)
+
+    async def _release(self) -> None:
+        """End a session of commands that stands. Raises NotReady for one that moves."""
+        if self._streamer is not None:
+            await self._streamer.release()
 
     async def stop(self) -> State | None:
         """Stop the robot, whichever client moves it; waiting goals end too.
@@ -151,6 +232,8 @@ class RobotLink:
         robot = self._there()
         if self._follower is not None:
             self._follower.cancel_pending()
+        if self._streamer is not None:
+            self._streamer.stop()
         return await robot.stop()
 
     async def pause(self) -> None:
@@ -208,6 +291,7 @@ class RobotLink:
             raise NotReady.because(
                 "RG621", "a goal is executed", "cancel it, or wait for its end, then call"
             )
+        await self._release()
         self._paused_at = None
         return await robot.call(routine, *arguments)
 

@@ -17,7 +17,7 @@ class Record:
     """A `LinkListener` that keeps what is published."""
 
     def __init__(self):
-        self.states, self.health, self.notes = [], [], []
+        self.states, self.health, self.notes, self.reports = [], [], [], []
 
     def joint_states(self, states):
         self.states.append(states)
@@ -27,6 +27,9 @@ class Record:
 
     def note(self, text):
         self.notes.append(text)
+
+    def streaming(self, report):
+        self.reports.append(report)
 
 
 def _address(ports):

@@ -14,30 +14,37 @@ if IS_REAL:
     from builtin_interfaces.msg import Duration, Time
     from control_msgs.action import FollowJointTrajectory
     from control_msgs.msg import JointTolerance
-    from geometry_msgs.msg import Point, Pose, Quaternion
+    from geometry_msgs.msg import Point, Pose, Quaternion, TwistStamped
     from rapidgen_interfaces.msg import Value
-    from trajectory_msgs.msg import JointTrajectoryPoint
+    from std_msgs.msg import Float64MultiArray
+    from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 else:
     from standin import (
         Duration,
+        Float64MultiArray,
         FollowJointTrajectory,
         JointTolerance,
+        JointTrajectory,
         JointTrajectoryPoint,
         Point,
         Pose,
         Quaternion,
         Time,
+        TwistStamped,
         Value,
     )
 
 __all__ = [
     "Duration",
+    "Float64MultiArray",
     "FollowJointTrajectory",
     "JointTolerance",
+    "JointTrajectory",
     "JointTrajectoryPoint",
     "Point",
     "Pose",
     "Quaternion",
     "Time",
+    "TwistStamped",
     "Value",
 ]

@@ -191,6 +191,7 @@ class Driver(Client):
 
         super().__init__()
         qos = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        self._publishers = _Made(self._publisher)
         self._rosout = Topic(self.client, Log, "/rosout", qos)
         overrides = [Parameter(name, value=value) for name, value in parameter_overrides.items()]
         self.node = RobotNode(parameter_overrides=overrides, **options)
@@ -244,6 +245,21 @@ class Driver(Client):
     @property
     def fault(self):
         return self.node.fault
+
+    def send(self, topic, message):
+        """Publish a message when the node has been discovered."""
+        publisher = self._publishers[topic, type(message)]
+        until = time.monotonic() + TIMEOUT
+        while not publisher.get_subscription_count():
+            assert time.monotonic() < until, f"nothing subscribes to {topic}"
+            time.sleep(0.02)
+        publisher.publish(message)
+
+    def _publisher(self, place):
+        topic, kind = place
+        return self.client.create_publisher(
+            kind, topic.replace("~", self.node.get_fully_qualified_name()), QoSProfile(depth=10)
+        )
 
     def break_joint_states(self, fault):
         """Let every message of `joint_states` raise."""

@@ -75,6 +75,12 @@ MultiDOF = message("MultiDOFJointTrajectory", header=Header, joint_names=[str], 
 JointTolerance = message(
     "JointTolerance", name=str, position=float, velocity=float, acceleration=float
 )
+Vector3 = message("Vector3", x=float, y=float, z=float)
+Twist = message("Twist", linear=Vector3, angular=Vector3)
+TwistStamped = message("TwistStamped", header=Header, twist=Twist)
+MultiArrayDimension = message("MultiArrayDimension", label=str, size=int, stride=int)
+MultiArrayLayout = message("MultiArrayLayout", dim=[MultiArrayDimension], data_offset=int)
+Float64MultiArray = message("Float64MultiArray", layout=MultiArrayLayout, data=[float])
 KeyValue = message("KeyValue", key=str, value=str)
 DiagnosticStatus = message(
     "DiagnosticStatus", level=bytes, name=str, message=str, hardware_id=str, values=[KeyValue]
@@ -163,6 +169,10 @@ class SetSpeedRatio:
 
 
 class ReentrantCallbackGroup:
+    pass
+
+
+class MutuallyExclusiveCallbackGroup:
     pass
 
 
@@ -373,7 +383,7 @@ class LifecycleNode:
         self._given = dict(parameter_overrides or {})
         self._logger = _Logger()
         self.state = "unconfigured"
-        self.topics, self.services, self.actions = {}, {}, {}
+        self.topics, self.services, self.actions, self.subscriptions = {}, {}, {}, {}
 
     def get_name(self):
         return self._name
@@ -450,10 +460,17 @@ class LifecycleNode:
         self, msg_type, topic, callback, qos_profile, *, callback_group=None, raw=False
     ):
         assert isinstance(qos_profile, QoSProfile)
-        return callback
+        self.subscriptions[topic] = msg_type, callback
+        return topic
 
     def destroy_subscription(self, subscription):
-        pass
+        del self.subscriptions[subscription]
+
+    def send(self, topic, message):
+        """As a publisher of another node."""
+        kind, callback = self.subscriptions[topic]
+        assert isinstance(message, kind)
+        callback(message)
 
     def get_fully_qualified_name(self):
         return f"/{self._name}"
@@ -507,7 +524,7 @@ def modules():
     for module, names in {
         "rclpy": "",
         "rclpy.action": "ActionServer CancelResponse GoalResponse",
-        "rclpy.callback_groups": "ReentrantCallbackGroup",
+        "rclpy.callback_groups": "MutuallyExclusiveCallbackGroup ReentrantCallbackGroup",
         "rclpy.lifecycle": "LifecycleNode TransitionCallbackReturn",
         "rclpy.parameter": "Parameter",
         "rclpy.qos": "QoSProfile",
@@ -516,6 +533,7 @@ def modules():
         "builtin_interfaces.msg": "Duration Time",
         "control_msgs.action": "FollowJointTrajectory",
         "diagnostic_msgs.msg": "DiagnosticArray DiagnosticStatus KeyValue",
+        "geometry_msgs.msg": "TwistStamped",
         "industrial_msgs.msg": "RobotStatus",
         "rapidgen_interfaces.msg": "Value",
         "rapidgen_interfaces.srv": (
@@ -524,8 +542,9 @@ def modules():
         "rcl_interfaces.msg": "Log ParameterDescriptor SetParametersResult",
         "rosgraph_msgs.msg": "Clock",
         "sensor_msgs.msg": "JointState",
+        "std_msgs.msg": "Float64MultiArray",
         "std_srvs.srv": "Trigger",
-        "trajectory_msgs.msg": "JointTrajectoryPoint",
+        "trajectory_msgs.msg": "JointTrajectory JointTrajectoryPoint",
     }.items():
         made = ModuleType(module)
         for name in names.split():
@@ -533,6 +552,7 @@ def modules():
         result[module] = made
         package = module.split(".")[0]
         result.setdefault(package, ModuleType(package))
+    result["rclpy.qos"].qos_profile_sensor_data = QoSProfile(depth=5)
     result["rclpy.lifecycle"].LifecycleState = SimpleNamespace
     executors = result["rclpy.executors"] = ModuleType("rclpy.executors")
     executors.MultiThreadedExecutor = executors.ExternalShutdownException = type(

@@ -12,13 +12,13 @@ PLACES = {
     "builtin_interfaces.msg": "Duration Time",
     "control_msgs.msg": "JointTolerance",
     "diagnostic_msgs.msg": "DiagnosticArray DiagnosticStatus KeyValue",
-    "geometry_msgs.msg": "Point Pose Quaternion",
+    "geometry_msgs.msg": "Point Pose Quaternion Twist TwistStamped Vector3",
     "industrial_msgs.msg": "RobotMode RobotStatus TriState",
     "rapidgen_interfaces.msg": "Value",
     "rcl_interfaces.msg": "Log SetParametersResult",
     "rosgraph_msgs.msg": "Clock",
     "sensor_msgs.msg": "JointState",
-    "std_msgs.msg": "Header",
+    "std_msgs.msg": "Float64MultiArray Header MultiArrayDimension MultiArrayLayout",
     "trajectory_msgs.msg": "JointTrajectory JointTrajectoryPoint",
 }
 PARTS = {

@@ -8,7 +8,7 @@ be a motion.
 """
 
 from bisect import bisect_right
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import degrees
 from typing import Literal, TypeAlias
 
@@ -38,21 +38,36 @@ SILENCE = 0.5
 class Target:
     """Where the robot shall be, and how fast it shall move on from there.
 
-    Without joints and pose it shall take over the speeds. `at`: s on the caller's clock.
+    Without joints and pose it shall take over the speeds. `at`: s on the caller's clock. `lasts`: s
+    after `at` for which it is in force; then the robot slows down, stays, and waits for the next
+    one. None: until the session's time-out, after which no target is executed any more.
     """
 
     at: float
     joints: Joints | None = None
     pose: Pose | None = None
     speeds: Joints | None = None
+    lasts: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Path:
-    """A trajectory that begins at once: times in s from its start, and positions."""
+    """A trajectory that begins at once: times in s from its start, and positions.
+
+    With velocities it is a cubic spline, else lines between the points. It is followed from the
+    time `since` on, from the present reference if the first point is later. A last velocity is
+    slowed down after the end.
+    """
 
     times: tuple[float, ...]
     positions: tuple[Joints, ...]
+    velocities: tuple[Joints, ...] | None = None
+    since: float = 0.0
+
+    @property
+    def ends_moving(self) -> bool:
+        """True if its last velocity is not zero."""
+        return self.velocities is not None and any(self.velocities[-1])
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,7 +158,7 @@ class PartnerExchange:
                 self.stopped = True
             case Path():
                 # Its end needs no further target: the robot stays there.
-                self._path, self._path_time, self.target = order, 0.0, None
+                self._path, self._path_time, self.target = self._begun(order), order.since, None
             case RapidData():
                 self.data = order
             case Target():
@@ -226,8 +241,11 @@ class PartnerExchange:
         self, message: RobotMessage, joints: Joints, cycle: float, age: float | None
     ) -> None:
         target = self.target
-        if age is not None and age > self.timeout and self._path is None:
-            self.stopped = True
+        if target is not None and age is not None and self._path is None:
+            if target.lasts is None and age > self.timeout:
+                self.stopped = True
+            elif target.lasts is not None and age > target.lasts:
+                target = self.target = None
         if self.guidance == "joints":
             if self.reference is None:
                 self.reference = Reference(self.envelope, joints)
@@ -250,17 +268,37 @@ class PartnerExchange:
             reference.brake(cycle)
         elif path is not None:
             self._path_time = min(self._path_time + cycle, path.times[-1])
-            reference.follow(*_at(path, self._path_time, cycle))
-            if self._path_time >= path.times[-1] and reference.positions == path.positions[-1]:
+            if self._path_time >= path.times[-1] and path.ends_moving:
                 self._path = None
-        elif target is not None and target.joints is not None:
+                reference.brake(cycle)
+                return
+            reference.follow(*_at(path, self._path_time, cycle))
+            has_arrived = reference.positions == path.positions[-1] and reference.is_standing
+            if self._path_time >= path.times[-1] and has_arrived:
+                self._path = None
+        elif target is None:
+            reference.brake(cycle)
+        elif target.joints is not None:
             rates = target.speeds
             moved = target.joints
             if rates is not None:
                 moved = tuple(q + v * age for q, v in zip(moved, rates, strict=True))
             reference.follow(moved, cycle, rates)
-        elif target is not None and target.speeds is not None:
+        elif target.speeds is not None:
             reference.drive(target.speeds, cycle)
+
+    def _begun(self, path: Path) -> Path:
+        """Return a path from the present reference, if its first point is later."""
+        reference = self.reference
+        if reference is None or path.times[0] <= path.since:
+            return path
+        speeds = reference.speeds
+        return replace(
+            path,
+            times=(path.since, *path.times),
+            positions=(reference.positions, *path.positions),
+            velocities=path.velocities and (speeds, *path.velocities),
+        )
 
     def _advance_pose(
         self, reference: PoseReference, target: Target | None, cycle: float, age: float
@@ -345,15 +383,33 @@ def _moved(pose: Pose, speeds: Twist, time: float) -> Pose:
 
 
 def _at(path: Path, time: float, cycle: float) -> tuple[Joints, float, Joints | None]:
-    """Return the arguments of `Reference.follow` at a time of a path.
+    """Return the arguments of `Reference.follow` at a time of a path; at its end it stands."""
+    if time >= path.times[-1] or len(path.times) == 1:
+        return path.positions[-1], cycle, None
+    positions, velocities = sample(path, time)
+    return positions, cycle, velocities
 
-    The path is made of lines between its points; at its end the target stands.
-    """
-    after = min(bisect_right(path.times, time), len(path.times) - 1)
+
+def sample(path: Path, time: float) -> tuple[Joints, Joints]:
+    """Return positions and velocities of a path of two points or more."""
+    after = max(1, min(bisect_right(path.times, time), len(path.times) - 1))
     first, last = path.times[after - 1], path.times[after]
-    part = min(1.0, (time - first) / (last - first))
+    span = last - first
+    part = max(0.0, min(1.0, (time - first) / span))
     pairs = list(zip(path.positions[after - 1], path.positions[after], strict=True))
-    positions = tuple(q + (end - q) * part for q, end in pairs)
-    if time >= path.times[-1]:
-        return positions, cycle, None
-    return positions, cycle, tuple((end - q) / (last - first) for q, end in pairs)
+    if path.velocities is None:
+        positions = tuple(q + (end - q) * part for q, end in pairs)
+        return positions, tuple((end - q) / span for q, end in pairs)
+    rates = list(zip(path.velocities[after - 1], path.velocities[after], strict=True))
+    # Cubic Hermite polynomials of each joint.
+    s, s2, s3 = part, part * part, part * part * part
+    values = [
+        (
+            (2 * s3 - 3 * s2 + 1) * p
+            + (3 * s2 - 2 * s3) * q
+            + ((s3 - 2 * s2 + s) * v + (s3 - s2) * w) * span,
+            (6 * s2 - 6 * s) * (p - q) / span + (3 * s2 - 4 * s + 1) * v + (3 * s2 - 2 * s) * w,
+        )
+        for (p, q), (v, w) in zip(pairs, rates, strict=True)
+    ]
+    return tuple(value for value, _ in values), tuple(rate for _, rate in values)

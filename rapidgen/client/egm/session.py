@@ -33,6 +33,7 @@ with named():
         Path,
         Stop,
         Target,
+        sample,
     )
 
 from rapidgen.client.egm.lag import Lag, LagMeter
@@ -190,6 +191,8 @@ class _Session:
         *,
         pose: Pose | None = None,
         speeds: Sequence[float] | None = None,
+        lasts: float | None = None,
+        at: float | None = None,
     ) -> None:
         """Send a target.
 
@@ -200,6 +203,9 @@ class _Session:
             speeds: (k,) of the joints, or (6,) of the TCP: m/s along and rad/s about x, y and z.
                 The target moves on with them until the next one. Without a target the robot takes
                 them over.
+            lasts: s for which the target is in force. The robot then slows down and waits for the
+                next one. None: the session's `timeout`, which ends its targets.
+            at: Moment from which the target counts, s of `time.monotonic`; None: now.
 
         Raises TargetRejected: it is beyond the envelope, the session guides the other, or the robot
         is not guided.
@@ -218,7 +224,8 @@ class _Session:
             values = None if joints is None else self.envelope.check(joints, self._before(state))
             place = None if pose is None else self.envelope.tcp.check(pose, self._pose(state))
             self._last, self._last_pose = values, place
-            self._post(Target(self._clock(), values, place, rates))
+            moment = self._clock() if at is None else at
+            self._post(Target(moment, values, place, rates, lasts))
 
     def _before(self, state: EgmState) -> Joints:
         return self._last or state.reference
@@ -256,21 +263,34 @@ class _Session:
         if trajectory.positions.shape[1] != len(names):
             raise _rejected(f"{trajectory.positions.shape[1]} columns for {len(names)} joints")
         positions = tuple(tuple(float(row[i]) for i in order) for row in trajectory.positions)
-        with self._changed:
-            self._check_path(times, positions, self._guided().reference)
-            self._last = None
-            self._post(Path(times, positions))
-        return times[-1], positions[-1]
-
-    def _check_path(
-        self, times: tuple[float, ...], positions: tuple[Joints, ...], start: Joints
-    ) -> None:
         if len(times) < 2 or times[0] != 0.0:
             raise _rejected("a trajectory has two points or more, and begins at 0 s")
-        self.envelope.check(positions[0], start)
-        envelope = self.envelope
+        self.begin(Path(times, positions))
+        return times[-1], positions[-1]
+
+    def begin(self, path: Path) -> None:
+        """Follow a path from now on, without waiting for its end; it replaces what is executed.
+
+        Position and speed of the robot stay continuous. The first point may be later than
+        `path.since`: the robot goes there from where it is. Raises TargetRejected.
+        """
+        with self._changed:
+            self._check_path(path, self._guided().reference)
+            self._last = None
+            self._post(path)
+
+    def _check_path(self, path: Path, reference: Joints) -> None:
+        envelope, times, positions = self.envelope, path.times, path.positions
         for row in positions:
             envelope.check(row, row)
+        for row in path.velocities or ():
+            envelope.check_speeds(row)
+        if times[0] > path.since:
+            times, positions = (path.since, *times), (reference, *positions)
+        elif len(times) > 1:
+            envelope.check(sample(path, path.since)[0], reference)
+        else:
+            envelope.check(positions[0], reference)
         for i in range(1, len(times)):
             time_ = times[i] - times[i - 1]
             if not time_ > 0:
@@ -432,7 +452,11 @@ class AsyncEgmSession(_Session):
 
     async def __aenter__(self) -> Self:
         # A controller that sends frames before allows about a second until the first answer.
-        await asyncio.to_thread(self._loop.wait_started)
+        try:
+            await asyncio.to_thread(self._loop.wait_started)
+        except asyncio.CancelledError:
+            await self.close()
+            raise
         return self
 
     async def __aexit__(self, *_: object) -> None:
