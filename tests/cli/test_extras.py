@@ -20,6 +20,8 @@ else:
 BEYOND = {
     "rapidgen.client.egm": "egm",
     "rapidgen.client.rws.": "web",
+    "rapidgen.ros.stream_execution": "egm",
+    "rapidgen.ros.twist_motion": "egm",
     "rapidgen.testing.egm": "egm",
     "rapidgen.deploy.transports.rws": "web",
     "rapidgen.servers.rws.server": "web",
@@ -44,6 +46,7 @@ for module in pkgutil.walk_packages(rapidgen.__path__, "rapidgen.", onerror=lamb
         "rapidgen.cli.__main__",
         "rapidgen.ros.node",
         "rapidgen.ros.operator_interface",
+        "rapidgen.ros.stream_interface",
     ):
         continue
     try:

@@ -12,7 +12,11 @@ from functools import cache
 from rapidgen.runtime.values import Record
 from tests.docs.tree import ROOT, circles, imports, modules
 
-_NEEDS_ROS = {"rapidgen.ros.node", "rapidgen.ros.operator_interface"}
+_NEEDS_ROS = {
+    "rapidgen.ros.node",
+    "rapidgen.ros.operator_interface",
+    "rapidgen.ros.stream_interface",
+}
 
 
 @dataclass(frozen=True)
