@@ -76,6 +76,8 @@ class Contact:
     """Depth at the next look, at most 20 ms later."""
     place: str
     """Move instructions under way; empty if there are none."""
+    values: tuple[float, ...]
+    """URDF values of the world's columns at that time, rad and m."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -221,7 +223,8 @@ class CollisionMonitor:
         time = path.time(violation.position)
         place = self.history.place(round(time * S))[0]
         bodies = self.world.scene.names(violation.pair)
-        contact = Contact(time, bodies, violation.point, max(0.0, -distance), place)
+        values = tuple(path.at(np.array([violation.position]))[0].tolist())
+        contact = Contact(time, bodies, violation.point, max(0.0, -distance), place, values)
         self.contacts.append(contact)
         return contact
 

@@ -42,4 +42,10 @@ class Simulation:
     def aspects(self) -> tuple[StateProvider, ...]:
         """Providers of the running controller."""
         scene = MotionProvider(self._runner, self._look)
-        return (scene, *(make(self._runner) for make in ASPECTS))
+        others = tuple(make(self._runner) for make in ASPECTS)
+        if self._runner.controller.collisions is None:
+            return (scene, *others)
+        # Without detection nothing of it is imported.
+        from rapidgen.viewer.simulator.collisions import CollisionProvider
+
+        return (scene, *others, CollisionProvider(self._runner, self._look))

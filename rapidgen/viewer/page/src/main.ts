@@ -116,7 +116,7 @@ document.body.append(bar, status.element, h("div", { class: "whole" }, main, tab
 
 let positions: Positions | null = null;
 const page: PageState = {
-  connection: "connecting", met: false, scene: null, panel: null, halt: null, playback: null, asking: [], modules: null,
+  connection: "connecting", met: false, scene: null, panel: null, halt: null, playback: null, asking: [], contacts: [], modules: null,
 };
 function update(change: Partial<PageState>): void {
   Object.assign(page, change);
@@ -137,7 +137,7 @@ link.on("scene", (scene) => {
   document.body.classList.toggle("reads", !scene.may_command);
   stage?.build(scene);
   help.greet(scene.kind);
-  update({ scene, met: true });
+  update({ scene, met: true, contacts: [] });
 });
 link.on("positions", (now) => {
   positions = now;
@@ -152,6 +152,9 @@ link.on("panel", (panel: PanelState) => {
 link.on("debugging", ({ halt }) => update({ halt }));
 link.on("playback", (playback) => update({ playback }));
 link.on("dialogs", ({ waiting }) => update({ asking: [...new Set(waiting.map((question) => question.task))] }));
+link.on("collisions", ({ near }) => update({
+  contacts: near.filter((pair) => pair.verdict === "contact").slice(0, 3).map((pair) => pair.bodies.join(" touches ")),
+}));
 link.on("loaded", ({ tasks }) => update({ modules: tasks.reduce((sum, task) => sum + Object.keys(task.modules).length, 0) }));
 link.watch((connection) => {
   document.body.dataset["connection"] = connection;

@@ -18,6 +18,8 @@ export interface PageState {
   playback: Playback | null;
   /** Tasks that wait for an answer. */
   asking: readonly string[];
+  /** Bodies that touch. */
+  contacts: readonly string[];
   /** Number of loaded modules; null: not known. */
   modules: number | null;
 }
@@ -45,6 +47,8 @@ export function stateText(page: PageState): StateText {
   if (panel.failed) return ["failed", "bad", "System failure. See the tab Log."];
   if (panel.e_stop)
     return ["e-stop", "bad", "Emergency stop. Press “Reset emergency stop”, then switch the motors on."];
+  if (page.contacts.length && !panel.running)
+    return ["collision", "bad", `Collision: ${page.contacts.join("; ")}. Move the robot away in the tab Jog.`];
   if (halt) return ["paused", "warn", "Paused: time and robots stand still. Press “Resume”."];
   if (page.asking.length) return ["asking", "warn", `${page.asking.join(", ")} waits for an answer in the tab Pendant.`];
   if (panel.execution_error) return ["error", "bad", "The program stopped with an error. See the tab Log."];

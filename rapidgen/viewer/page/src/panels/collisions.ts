@@ -15,7 +15,7 @@ export const collisionsPanel: MakePanel = ({ link, stage }) => {
   const table = h("table", { class: "pairs" },
     h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "Bodies"), ...["Distance", "Clearance", "Result"].map((text) => h("th", { scope: "col" }, text)))), body);
   const first = h("p", { role: "status" });
-  const ghost: HTMLButtonElement = h("button", { type: "button", "aria-pressed": "false", onclick: () => {
+  const ghost: HTMLButtonElement = h("button", { type: "button", class: "toggle", "aria-pressed": "false", onclick: () => {
     const shown = ghost.getAttribute("aria-pressed") !== "true";
     ghost.setAttribute("aria-pressed", String(shown));
     stage?.showContact(shown);

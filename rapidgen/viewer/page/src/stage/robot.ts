@@ -32,6 +32,8 @@ export class Robot {
     this.meshes = meshes;
     this.shade = new THREE.MeshLambertMaterial({
       color: palette.accent, transparent: true, opacity: 0.22, depthWrite: false,
+      // Behind the robot where their surfaces are in one plane: they would flicker.
+      polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
     });
     this.body = new Body(group.urdf, meshes, palette);
     this.ghost = new Body(group.urdf, meshes, palette, this.shade);
@@ -81,7 +83,8 @@ export class Robot {
       return;
     }
     if (!this.met) {
-      const red = new THREE.MeshLambertMaterial({ color: this.palette.limit, transparent: true, opacity: 0.3, depthWrite: false });
+      const red = new THREE.MeshLambertMaterial({ color: this.palette.limit, transparent: true, opacity: 0.3, depthWrite: false,
+        polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
       this.met = new Body(this.group.urdf, this.meshes, this.palette, red);
       this.root.add(this.met.urdf);
     }

@@ -293,6 +293,10 @@ export class Stage {
     }));
   }
 
+  furnished(): { zones: string[]; tools: string[] } {
+    return { zones: this.zones.children.map((zone) => zone.name), tools: this.tools.map((tool) => tool.name) };
+  }
+
   handle(): [number, number, [number, number]] {
     const [middle, arrow] = this.grip.reach(this.camera);
     return [...this.pixel(middle), this.pixel(arrow)];

@@ -17,7 +17,7 @@ export interface DrawnThing {
   readonly ready: Promise<boolean>;
 }
 
-/** Objects are solid, zones transparent with edges. */
+/** Objects are solid, zones transparent with edges; a zone to keep in has edges only. */
 export function drawnThing(thing: SeenThing, meshes: Meshes, palette: Palette): DrawnThing {
   const root = new THREE.Group();
   root.name = thing.name;
@@ -40,7 +40,8 @@ export function drawnThing(thing: SeenThing, meshes: Meshes, palette: Palette): 
     const geometry = solid(shape);
     if (!geometry) return false;
     const endless = shape.kind === "half_space";
-    root.add(stand(shape, new THREE.Mesh(geometry, endless ? glass(OBJECT) : skin)));
+    // Everything is seen through the zone that the robot is in.
+    if (thing.role !== "keep-in") root.add(stand(shape, new THREE.Mesh(geometry, endless ? glass(OBJECT) : skin)));
     if (zone || endless) root.add(stand(shape, new THREE.LineSegments(new THREE.EdgesGeometry(geometry), new THREE.LineBasicMaterial({ color: skin.color }))));
     return false;
   });
