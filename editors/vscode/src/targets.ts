@@ -28,8 +28,9 @@ export function registerTargets(context: vscode.ExtensionContext, startWithPage:
     }),
     vscode.commands.registerCommand("rapidgen.showTarget", (file?: vscode.Uri, line?: number) => showTarget(startWithPage, file, line)),
     vscode.window.onDidChangeTextEditorSelection(({ textEditor, kind }) => {
-      // Without a kind it is VS Code that moves the cursor, as to the line of a pause.
-      if (kind === undefined) return;
+      // Otherwise it is VS Code that moves the cursor, as to the line of a pause.
+      const { Keyboard, Mouse } = vscode.TextEditorSelectionChangeKind;
+      if (kind !== Keyboard && kind !== Mouse) return;
       clearTimeout(timer);
       const own = session();
       if (!own || textEditor.document.languageId !== "rapid" || !vscode.workspace.getConfiguration("rapidgen").get<boolean>("followCursor")) return;
