@@ -1,6 +1,7 @@
 """The commands `build`, `ros2` and `ros1`: what a configuration generates."""
 
 import math
+import sys
 from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -135,19 +136,31 @@ def ros2(
             metavar="POSE",
         ),
     ] = None,
+    cell: Annotated[
+        Path | None,
+        typer.Option(
+            help="Cell file: MoveIt's scene, links of tools, and a check of goals.", metavar="FILE"
+        ),
+    ] = None,
+    fit_shapes: Annotated[
+        bool,
+        typer.Option("--fit-shapes", help="Fit convex parts to the meshes, for collisions."),
+    ] = False,
     overrides: options.Overrides = None,
 ) -> None:
     """Write ROS 2 packages with launch files, URDF and MoveIt.
 
     FOLDER gets three, called as it: NAME_description, NAME_bringup, NAME_moveit_config. The node
     is `python -m rapidgen.ros`. MoveIt plans for several robots together, each with its own
-    controller; give --base-pose once for each of them.
+    controller; give --base-pose once for each of them. The description has the meshes of the
+    configuration's `urdf:`.
     """
     from rapidgen.config import load_config, shipped_names
     from rapidgen.config.model import RobotConfig
     from rapidgen.ros.package import (
         JOINT_STATES_RATE,
         CellMember,
+        PackageOptions,
         ros2_cell,
         ros2_packages,
         write,
@@ -165,14 +178,17 @@ def ros2(
         over = (*over, f"state.rate={JOINT_STATES_RATE}")
         models = [load_config(one, overrides=over) for one in config]
     sources = [one if one in shipped_names() else str(Path(one).resolve()) for one in config]
+    found: list[Diagnostic] = []
+    more = PackageOptions(cell, fit_shapes, found.append)
     if len(models) == 1:
-        files = ros2_packages(models[0], sources[0], output.resolve().name, over)
+        files = ros2_packages(models[0], sources[0], output.resolve().name, over, more)
     else:
         members = [
             CellMember(*one, overrides=over) for one in zip(models, sources, places, strict=True)
         ]
-        files = ros2_cell(members, output.resolve().name)
+        files = ros2_cell(members, output.resolve().name, more)
     write(files, output)
+    sys.stderr.write(render(found))
     typer.echo(f"{len(files)} files in {output}")
     if is_default:
         typer.echo(

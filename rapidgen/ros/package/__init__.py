@@ -6,10 +6,19 @@
 from rapidgen.ros.package.files import (
     JOINT_STATES_RATE,
     CellMember,
+    PackageOptions,
     ros1_package,
     ros2_cell,
     ros2_packages,
     write,
 )
 
-__all__ = ["JOINT_STATES_RATE", "CellMember", "ros1_package", "ros2_cell", "ros2_packages", "write"]
+__all__ = [
+    "JOINT_STATES_RATE",
+    "CellMember",
+    "PackageOptions",
+    "ros1_package",
+    "ros2_cell",
+    "ros2_packages",
+    "write",
+]

@@ -5,7 +5,7 @@ of them see the same names.
 """
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,10 +13,13 @@ import jinja2
 
 from rapidgen._atomic_write import write_whole
 from rapidgen._data import data_folder
+from rapidgen.config.cell import load_cell
 from rapidgen.config.model import GroupConfig, RobotConfig
+from rapidgen.config.registry import is_path
 from rapidgen.config.yaml_text import yaml_flow, yaml_text
-from rapidgen.diagnostics import DiagnosticError, error
-from rapidgen.ros.package import ros2_control, srdf, urdf
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, error
+from rapidgen.ros.package import ros2_control, scene, srdf, urdf
+from rapidgen.ros.package.description import MeshFiles
 
 JOINT_STATES_RATE = 50
 """Hz of joint_states of a package whose configuration has the default of 10.
@@ -45,20 +48,46 @@ class CellMember:
     Node and simulator load `source` with them too.
     """
 
+    @property
+    def path(self) -> Path | None:
+        """Return the configuration's file, None for a shipped model."""
+        return self.config.path if is_path(self.source) else None
+
+
+@dataclass(frozen=True, slots=True)
+class PackageOptions:
+    """Further data for packages."""
+
+    cell: Path | None = None
+    """Cell file: its objects are MoveIt's scene, its tools links, and goals are checked in it."""
+    is_fitted: bool = False
+    """Convex parts fitted to the meshes are the collision geometry."""
+    report: Callable[[Diagnostic], None] = lambda finding: None
+    """Gets warnings."""
+
+
+Files = dict[str, str | bytes]
+
 
 def ros2_packages(
-    config: RobotConfig, source: str, base: str, overrides: Sequence[str] = ()
-) -> dict[str, str]:
+    config: RobotConfig,
+    source: str,
+    base: str,
+    overrides: Sequence[str] = (),
+    options: PackageOptions | None = None,
+) -> Files:
     """Return the files of three ROS 2 packages by path: BASE_description, _bringup, _moveit_config.
 
     They start the node, rviz and MoveIt for this robot. `base`, which may be the name of any
     folder, is reduced to what ament allows.
     """
     member = CellMember(config, source, overrides=tuple(overrides))
-    return _ros2([member], config.name, base, [""])
+    return _ros2([member], config.name, base, [""], options or PackageOptions())
 
 
-def ros2_cell(members: Sequence[CellMember], base: str) -> dict[str, str]:
+def ros2_cell(
+    members: Sequence[CellMember], base: str, options: PackageOptions | None = None
+) -> Files:
     """Return the same for several robots in one MoveIt.
 
     Each has a controller and a node. Names of joints, links and planning groups begin with the
@@ -75,18 +104,52 @@ def ros2_cell(members: Sequence[CellMember], base: str) -> dict[str, str]:
                 "give each configuration a different `name`",
             )
         )
-    return _ros2(members, re.sub(r"[^\w .-]", "_", base), base, names)
+    return _ros2(members, re.sub(r"[^\w .-]", "_", base), base, names, options or PackageOptions())
 
 
 def _ros2(
-    members: Sequence[CellMember], called: str, base: str, names: Sequence[str]
-) -> dict[str, str]:
+    members: Sequence[CellMember],
+    called: str,
+    base: str,
+    names: Sequence[str],
+    options: PackageOptions,
+) -> Files:
     base = _plain(base)
-    placed = [
-        urdf.PlacedRobot(member.config, f"{one}_" if one else "", member.at)
-        for member, one in zip(members, names, strict=True)
+    cell = load_cell(options.cell) if options.cell is not None else None
+    shapes = [
+        scene.shapes_of(
+            member.config, member.path, cell, is_fitted=options.is_fitted, report=options.report
+        )
+        for member in members
     ]
-    drawn = urdf.draw_cell(placed, called)
+    placed = [
+        urdf.PlacedRobot(member.config, f"{one}_" if one else "", member.at, own.described)
+        for member, one, own in zip(members, names, shapes, strict=True)
+    ]
+    meshes = MeshFiles(f"{base}_description")
+    drawn = urdf.draw_cell(placed, called, meshes)
+    if drawn.without_collision:
+        options.report(
+            error(
+                "RG694",
+                None,
+                f"links without <collision>: {', '.join(drawn.without_collision)}",
+                "the meshes of <visual> are used; --fit-shapes makes convex parts of them",
+                severity=Severity.WARNING,
+            )
+        )
+    unchecked: list[tuple[str, str, str]] = []
+    for robot, own in zip(placed, shapes, strict=True):
+        if own.world is None:
+            continue
+        bodies = scene.link_names(robot.config, robot.prefix, drawn.names)
+        for group in robot.config.groups:
+            tip = drawn.arms[robot.prefix + group.name].tip
+            known = own.described.get(group.name)
+            bodies |= scene.add_tools(
+                drawn.root, own.world, group, known, tip, robot.prefix, meshes
+            )
+        unchecked += scene.without_check(own.world, bodies, options.report)
     robots = [
         {
             "name": one,
@@ -107,7 +170,8 @@ def _ros2(
         for number, (one, member, robot) in enumerate(zip(names, members, placed, strict=True), 1)
     ]
     tolerance = min(member.config.trajectory.start_tolerance for member in members)
-    files = _rendered(
+    files: Files = {}
+    texts = _rendered(
         "ros2",
         {
             "called": called,
@@ -117,17 +181,25 @@ def _ros2(
             "start_tolerance": f"{tolerance * _START_SHARE:.4f}",
             "is_cell": any(names),
             "has_ros2_control": ros2_control.is_possible(placed),
+            "has_meshes": bool(meshes.files),
+            "is_described": all(robot.described for robot in placed),
+            "cell": str(options.cell.resolve()) if options.cell is not None else "",
         },
     )
-    files = {f"{base}_{path}": text for path, text in files.items()}
-    files[f"{base}_moveit_config/config/{base}.srdf"] = srdf.draw(placed, drawn, called)
+    files |= {f"{base}_{path}": text for path, text in texts.items()}
+    files |= {f"{base}_description/{path}": data for path, data in meshes.files.items()}
+    files[f"{base}_moveit_config/config/{base}.srdf"] = srdf.draw(placed, drawn, called, unchecked)
+    world = next((own.world for own in shapes if own.world is not None), None)
+    if cell is not None and world is not None:
+        text = scene.scene_text(called, world.scene.bodies)
+        files[f"{base}_moveit_config/config/{base}.scene"] = text
     # Last: its joints are not those of the tree.
     ros2_control.add_hardware(drawn.root, placed)
     files[f"{base}_description/urdf/{base}.urdf"] = drawn.text
     return files
 
 
-def ros1_package(config: RobotConfig, source: str, name: str) -> dict[str, str]:
+def ros1_package(config: RobotConfig, source: str, name: str) -> Files:
     """Return the files for unmodified ROS-Industrial nodes by path.
 
     Launch file, parameters, a watcher. `name`, which may be that of any folder, is reduced to what
@@ -141,7 +213,7 @@ def ros1_package(config: RobotConfig, source: str, name: str) -> dict[str, str]:
         "groups": [_group(group) for group in config.groups],
         "several": len(config.groups) > 1,
     }
-    files = _rendered("ros1", context)
+    files: Files = dict(_rendered("ros1", context))
     files[f"config/{name}.urdf"] = drawn.text
     return files
 
@@ -151,7 +223,7 @@ def _plain(called: str) -> str:
     return plain if plain[:1].isalpha() else f"robot_{plain}"
 
 
-def write(files: dict[str, str], folder: Path) -> None:
+def write(files: Files, folder: Path) -> None:
     """Write a package to a new or empty folder, or over an older version.
 
     Raises DiagnosticError if foreign files are there, OSError.
@@ -174,8 +246,9 @@ def write(files: dict[str, str], folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for path, text in files.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
-        write_whole(folder / path, text.encode())
-        if text.startswith("#!"):
+        data = text.encode() if isinstance(text, str) else text
+        write_whole(folder / path, data)
+        if data.startswith(b"#!"):
             (folder / path).chmod(0o755)
 
 

@@ -5,7 +5,7 @@ there say nothing about the robot, and MoveIt could not plan from any start: its
 excludes such pairs as "Default".
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
 from itertools import combinations
 from xml.etree import ElementTree as ET
 
@@ -18,16 +18,20 @@ from rapidgen.config.vectors import Vector, scale
 _SHARES = np.linspace(0.0, 1.0, 41)[:, None]
 
 
-def overlapping(root: ET.Element, posture: Mapping[str, float]) -> Iterator[tuple[str, str]]:
+def overlapping(
+    root: ET.Element, posture: Mapping[str, float], shaped: Container[str]
+) -> Iterator[tuple[str, str]]:
     """Return pairs of links whose bars touch at `posture` (rad or m).
 
-    Only pairs in one chain, or without relative motion.
+    Only pairs in one chain, or without relative motion. The links `shaped` are no bars.
     """
     joints = {_attribute(joint, "child", "link"): joint for joint in root.iter("joint")}
     bars = {
         link.attrib["name"]: (_line(bar, _pose(link.attrib["name"], joints, posture)), _radius(bar))
         for link in root.iter("link")
-        if (bar := link.find("collision")) is not None
+        if link.attrib["name"] not in shaped
+        and (bar := link.find("collision")) is not None
+        and bar.find("geometry/cylinder") is not None
     }
     before = {link: set(_before(link, joints)) for link in bars}
     for one, other in combinations(bars, 2):

@@ -1,11 +1,11 @@
 """SRDF: planning groups, a home posture, pairs of links that may touch.
 
-Excluded from the collision check are pairs that a joint connects, and bars of one chain that touch
-at home because they are drawn too thick. Other pairs that never touch are unknown without the
-robot's real shape, and an unnecessary check does no harm.
+Excluded from the collision check are pairs that a joint connects, bars of one chain that touch at
+home because they are drawn too thick, and the pairs that rapidgen's own collision check leaves out.
+An unnecessary check does no harm.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from xml.etree import ElementTree as ET
 
 from rapidgen.axes.default_postures import usual_start
@@ -18,10 +18,15 @@ TOGETHER = "robots"
 """Planning group of all others: a plan for all arms at once."""
 
 
-def draw(robots: Sequence[PlacedRobot], drawn: UrdfDrawing, name: str) -> str:
+def draw(
+    robots: Sequence[PlacedRobot],
+    drawn: UrdfDrawing,
+    name: str,
+    unchecked: Iterable[tuple[str, str, str]] = (),
+) -> str:
     """Return the text for the URDF `drawn`.
 
-    Planning groups are named as motion groups.
+    Planning groups are named as motion groups. `unchecked` are further pairs (link, link, reason).
     """
     root = ET.Element("robot", name=name)
     for robot in robots:
@@ -41,8 +46,12 @@ def draw(robots: Sequence[PlacedRobot], drawn: UrdfDrawing, name: str) -> str:
         for joint, value in home_posture(group)
     }
     pairs = dict.fromkeys(drawn.adjacent, "Adjacent")
-    for pair in overlapping(drawn.root, home):
-        pairs.setdefault(pair, "Default")
+    shaped = {link for names in drawn.names.values() for link in names.values()}
+    for one, other in overlapping(drawn.root, home, shaped):
+        pairs.setdefault((one, other), "Default")
+    for one, other, reason in unchecked:
+        if (other, one) not in pairs:
+            pairs.setdefault((one, other), reason)
     for (one, other), reason in pairs.items():
         ET.SubElement(root, "disable_collisions", link1=one, link2=other, reason=reason)
     ET.indent(root)

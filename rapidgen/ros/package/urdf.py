@@ -1,16 +1,27 @@
-"""URDF of a configuration's chain, with the joint names of goals.
+"""URDF of a configuration, with the joint names of goals.
 
-joint_states has the same names. Links are cylinders along the chain if the robot has no meshes
-here: enough to see it move, and not empty for planning, but not the robot's shape.
+joint_states has the same names. It is the configuration's description, if that has one. Otherwise
+links are cylinders along the chain: enough to see it move, and not empty for planning, but not the
+robot's shape.
 """
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from itertools import count
 from math import acos, atan2, sqrt
 from xml.etree import ElementTree as ET
 
-from rapidgen.config.model import ChainLink, Joint, RobotConfig
+from rapidgen.config.model import ChainLink, GroupConfig, Joint, RobotConfig
+from rapidgen.config.urdf.robot import UrdfJoint
+from rapidgen.ros.package.description import (
+    DescribedGroup,
+    MeshFiles,
+    add_shapes,
+    at_base,
+    chain_of,
+    draw_tree,
+    tip_of,
+)
 
 ROOT = "world"
 _EFFORT = "1000"
@@ -27,6 +38,8 @@ class PlacedRobot:
     prefix: str = ""
     at: tuple[float, ...] = (0.0,) * 6
     """x, y, z in m; roll, pitch, yaw in rad."""
+    described: Mapping[str, DescribedGroup] = field(default_factory=dict)
+    """By group; the others are drawn along their chains."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +66,10 @@ class UrdfDrawing:
     root: ET.Element
     arms: dict[str, LinkChain]
     """By motion group, with its robot's prefix."""
-    positioners: dict[str, tuple[LinkChain, ...]]
+    names: dict[str, Mapping[str, str]] = field(default_factory=dict)
+    """By motion group with a description: links of the URDF by the description's names."""
+    without_collision: tuple[str, ...] = ()
+    """Links of descriptions that have visuals only, which are used for collisions as well."""
 
     @property
     def text(self) -> str:
@@ -76,25 +92,50 @@ def draw(config: RobotConfig, name: str) -> UrdfDrawing:
     return draw_cell([PlacedRobot(config)], name)
 
 
-def draw_cell(robots: Sequence[PlacedRobot], name: str) -> UrdfDrawing:
-    """Return the URDF of several robots in one world."""
+def draw_cell(
+    robots: Sequence[PlacedRobot], name: str, meshes: MeshFiles | None = None
+) -> UrdfDrawing:
+    """Return the URDF of several robots in one world.
+
+    `meshes` gets the meshes of descriptions. Raises DiagnosticError RG827 for one that is missing.
+    """
     root = ET.Element("robot", name=name)
     ET.SubElement(root, "link", name=ROOT)
-    arms, positioners = {}, {}
+    meshes = meshes or MeshFiles(name)
+    arms: dict[str, LinkChain] = {}
+    names: dict[str, Mapping[str, str]] = {}
+    visual_only: list[str] = []
     for robot in robots:
         several = len(robot.config.groups) > 1
+        joints = {joint.name: joint for group in robot.config.groups for joint in group.joints}
+        drawer = _Drawer(root, joints, robot.prefix, robot.at)
+        trees: list[tuple[DescribedGroup, dict[str, str]]] = []
         for group in robot.config.groups:
+            key = robot.prefix + group.name
             prefix = robot.prefix + (f"{group.name}_" if several else "")
-            joints = {joint.name: joint for joint in group.joints}
-            drawer = _Drawer(root, joints, robot.prefix, robot.at)
-            arms[robot.prefix + group.name] = drawer.branch(
-                f"{prefix}base_link", group.chain, f"{prefix}tool0"
-            )
-            positioners[robot.prefix + group.name] = tuple(
-                drawer.branch(f"{prefix}{unit.unit}_base", unit.chain, f"{prefix}{unit.unit}_table")
-                for unit in group.positioners
-            )
-    return UrdfDrawing(root, arms, positioners)
+            own = robot.described.get(group.name)
+            if own is None:
+                arms[key] = _along_chain(drawer, group, prefix)
+                continue
+            # Arms in one description share its links.
+            drawn = next((one for known, one in trees if known.tree is own.tree), None)
+            if drawn is None:
+                drawn = draw_tree(drawer, own, joints, robot.prefix, (ROOT, at_base(robot.at)))
+                elements = {element.attrib["name"]: element for element in root.iter("link")}
+                visual_only += add_shapes(elements, own, drawn, meshes)
+                trees.append((own, drawn))
+            names[key] = drawn
+            tip = tip_of(drawer, own, drawn, f"{prefix}tool0")
+            links, moving = chain_of(own, tip, drawn)
+            arms[key] = LinkChain(tuple(links), tuple(robot.prefix + one for one in moving))
+    return UrdfDrawing(root, arms, names, tuple(visual_only))
+
+
+def _along_chain(drawer: "_Drawer", group: GroupConfig, prefix: str) -> LinkChain:
+    arm = drawer.branch(f"{prefix}base_link", group.chain, f"{prefix}tool0")
+    for unit in group.positioners:
+        drawer.branch(f"{prefix}{unit.unit}_base", unit.chain, f"{prefix}{unit.unit}_table")
+    return arm
 
 
 def urdf_range(joint: Joint) -> tuple[float, float]:
@@ -111,12 +152,12 @@ class _Drawer:
     root: ET.Element
     joints: dict[str, Joint]
     prefix: str
-    """Number of joints."""
     at: Sequence[float]
+    """The robot's base in the world: x, y, z in m; roll, pitch, yaw in rad."""
 
     def branch(self, base: str, chain: Sequence[ChainLink], tip: str) -> LinkChain:
-        base = self._link(base)
-        self._fixed(ROOT, base, self.at[:3], self.at[3:])
+        base = self.link(base)
+        self.fixed(ROOT, base, self.at[:3], self.at[3:])
         links, joints = [base], []
         for number, step in enumerate(chain, 1):
             end = tip if number == len(chain) and not (step.joint or step.follows) else ""
@@ -124,8 +165,8 @@ class _Drawer:
                 joints.append(self.prefix + step.joint)
             links += self._step(links[-1], step, end or f"{base}_{number}")
         if links[-1] != tip:
-            tip = self._link(tip)
-            self._fixed(links[-1], tip, (0, 0, 0), (0, 0, 0))
+            tip = self.link(tip)
+            self.fixed(links[-1], tip, (0, 0, 0), (0, 0, 0))
             links.append(tip)
         return LinkChain(tuple(links), tuple(joints))
 
@@ -134,19 +175,19 @@ class _Drawer:
         self._bar(parent, step.xyz)
         if step.joint:
             name, joint = self.prefix + step.joint, self.joints[step.joint]
-            child = self._link(f"{name}_link")
+            child = self.link(f"{name}_link")
             element = self._joint(name, joint.kind, parent, child, step.xyz, step.rpy, step.axis)
             _limit(element, joint)
             return [child]
         if not step.follows:
-            child = self._link(child)
-            self._fixed(parent, child, step.xyz, step.rpy)
+            child = self.link(child)
+            self.fixed(parent, child, step.xyz, step.rpy)
             return [child]
         # A passive joint may follow several: one mimicking joint for each, about the same axis.
         made: list[str] = []
         xyz, rpy = step.xyz, step.rpy
         for number, (followed, factor) in enumerate(step.follows, 1):
-            link = self._link(f"{child}_{number}")
+            link = self.link(f"{child}_{number}")
             at = made[-1] if made else parent
             name = self._free("joint", f"{link}_joint")
             element = self._joint(name, "continuous", at, link, xyz, rpy, step.axis)
@@ -157,13 +198,38 @@ class _Drawer:
             xyz = rpy = (0.0, 0.0, 0.0)
         return made
 
-    def _link(self, wished: str) -> str:
+    def link(self, wished: str) -> str:
+        """Add a link and return its name."""
         name = self._free("link", wished)
         ET.SubElement(self.root, "link", name=name)
         return name
 
-    def _fixed(self, parent: str, child: str, xyz: Sequence[float], rpy: Sequence[float]) -> None:
-        self._joint(self._free("joint", f"{child}_joint"), "fixed", parent, child, xyz, rpy)
+    def fixed(
+        self, parent: str, child: str, xyz: Sequence[float], rpy: Sequence[float], name: str = ""
+    ) -> None:
+        """Add a fixed joint."""
+        name = self._free("joint", name or f"{child}_joint")
+        self._joint(name, "fixed", parent, child, xyz, rpy)
+
+    def moving(self, joint: UrdfJoint, names: tuple[str, str, str], limits: Joint | None) -> None:
+        """Add a joint of a description: its name, parent and child; without limits it mimics."""
+        name, parent, child = names
+        slides = joint.kind == "prismatic"
+        # A prismatic joint needs limits; those of what it follows are the ones that matter.
+        kind = limits.kind if limits is not None else "prismatic" if slides else "continuous"
+        element = self._joint(name, kind, parent, child, joint.xyz, joint.rpy, joint.axis)
+        if limits is not None:
+            _limit(element, limits)
+            return
+        if slides:
+            far = {"lower": "-10", "upper": "10", "velocity": "10", "effort": _EFFORT}
+            ET.SubElement(element, "limit", far)
+        ET.SubElement(
+            element,
+            "mimic",
+            joint=self.prefix + joint.mimic,
+            multiplier=_number(joint.multiplier),
+        )
 
     def _free(self, tag: str, wished: str) -> str:
         """Return an unused name: the robot's own joints may have any name."""
