@@ -248,3 +248,18 @@ def test_description_that_moves_otherwise_is_not_used(robot, monkeypatch):
     files = packages(robot, found)
     assert "moves otherwise" in found[0].message
     assert not [path for path in files if path.endswith(".stl")]
+
+
+def test_two_arms_of_one_description_share_its_links(tmp_path):
+    (tmp_path / "yumi.urdf").write_bytes((ROOT / "robots/urdf/irb14000.urdf").read_bytes())
+    arms = "".join(f"  {arm}: {{urdf: {{file: yumi.urdf}}}}\n" for arm in ("rob_l", "rob_r"))
+    path = tmp_path / "yumi.yaml"
+    path.write_text(f"model: irb14000\ngroups:\n{arms}")
+    files = packages(load_config(str(path)))
+    root = ET.fromstring(files["cell_description/urdf/cell.urdf"])
+    links = [link.attrib["name"] for link in root.iter("link")]
+    assert len(links) == len(set(links))
+    srdf = ET.fromstring(files["cell_moveit_config/config/cell.srdf"])
+    chains = [chain.attrib for chain in srdf.iter("chain")]
+    assert [chain["base_link"] for chain in chains] == ["base_link", "base_link"]
+    assert chains[0]["tip_link"] != chains[1]["tip_link"]

@@ -118,7 +118,10 @@ def draw_cell(
                 arms[key] = _along_chain(drawer, group, prefix)
                 continue
             # Arms in one description share its links.
-            drawn = next((one for known, one in trees if known.tree is own.tree), None)
+            drawn = next(
+                (one for known, one in trees if known.tree.graph.robot == own.tree.graph.robot),
+                None,
+            )
             if drawn is None:
                 drawn = draw_tree(drawer, own, joints, robot.prefix, (ROOT, at_base(robot.at)))
                 elements = {element.attrib["name"]: element for element in root.iter("link")}
