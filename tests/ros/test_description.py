@@ -136,7 +136,7 @@ def test_missing_mesh_refuses_the_package(robot, capsys):
 
 def test_bars_of_a_robot_without_description_are_reported(tmp_path, capsys):
     assert main(["ros2", "irb120", "-o", str(tmp_path / "p")]) == 0
-    assert "RG694" in capsys.readouterr().err
+    assert "RG699" in capsys.readouterr().err
 
 
 def test_pairs_without_a_check_are_those_of_the_cell(robot, cell):

@@ -131,7 +131,7 @@ def _ros2(
     if drawn.without_collision:
         options.report(
             error(
-                "RG694",
+                "RG699",
                 None,
                 f"links without <collision>: {', '.join(drawn.without_collision)}",
                 "the meshes of <visual> are used; --fit-shapes makes convex parts of them",

@@ -52,7 +52,7 @@ def shapes_of(
 ) -> RobotShapes:
     """Return the shapes of a robot; `path` is its configuration, None for a shipped model.
 
-    `is_fitted`: convex parts replace the meshes for collisions. `report` gets warnings (RG694).
+    `is_fitted`: convex parts replace the meshes for collisions. `report` gets warnings (RG699).
     Raises DiagnosticError for a faulty cell or mesh; ModuleNotFoundError without coal if something
     is to be fitted.
     """
@@ -109,7 +109,7 @@ def _described(source: RobotSource, *, is_fitted: bool, report: Report) -> Descr
 
 
 def _doubt(message: str, help: str) -> Diagnostic:
-    return error("RG694", None, message, help, severity=Severity.WARNING)
+    return error("RG699", None, message, help, severity=Severity.WARNING)
 
 
 def without_check(
