@@ -317,6 +317,7 @@ class AsyncRobot(RobotApi[AsyncFlowRunner]):
             fraction=fraction,
             step=step,
             timeout=timeout,
+            cell=self._core.collisions,
         ) as session:
             beat = session.write if config.robotware >= flows.guidance.DATA_SINCE else None
             number = await self._runner.run(flows.guidance.start(self._core, beat))

@@ -356,6 +356,7 @@ class Robot(RobotApi[SyncFlowRunner]):
             fraction=fraction,
             step=step,
             timeout=timeout,
+            cell=self._core.collisions,
         ) as session:
             beat = session.write if config.robotware >= flows.guidance.DATA_SINCE else None
             number = self._runner.run(flows.guidance.start(self._core, beat))

@@ -573,17 +573,26 @@ class Core:
             first=before.points if before is not None else 0,
             since=float(checked.trajectory.times[0]),
         )
-        if not report.is_free:
-            raise InvalidTrajectory(report.diagnostics, exit_code=1)
+        found = report.diagnostics
+        if report.is_free and is_open:
+            # The next piece may not come, and a stop may come anywhere.
+            found = self.collisions.check_stops(
+                checked.wire,
+                checked.durations,
+                reached,
+                first=before.points if before is not None else 0,
+            )
+        if not report.is_free or found:
+            raise InvalidTrajectory(found, exit_code=1)
         return replace(checked, warnings=(*checked.warnings, *self.collisions.diagnostics))
 
     def check_program(
-        self, program: Program, mode: TransferMode | None = None
+        self, program: Program, mode: TransferMode | None = None, *, leaving: bool = False
     ) -> tuple[CheckedProgram, TransferMode]:
         """Check a program and choose its mode.
 
-        It is downloaded if the ring buffer holds it. Raises InvalidProgram, NotReady (no state
-        yet), NotSupported.
+        It is downloaded if the ring buffer holds it. `leaving`: see `CellCheck.check_program`.
+        Raises InvalidProgram, NotReady (no state yet), NotSupported.
         """
         require_program(program)
         require_mode(mode)
@@ -598,7 +607,7 @@ class Core:
         most = hello.ring if chosen == "download" else INDEX_WRAP - 1
         checked = check_program(program, self.known_group, start=self.start, most=most)
         if self.collisions is not None:
-            report = self.collisions.check_program(checked)
+            report = self.collisions.check_program(checked, leaving=leaving)
             if not report.is_free:
                 raise InvalidProgram(report.diagnostics)
         return checked, chosen

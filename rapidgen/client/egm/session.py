@@ -18,7 +18,7 @@ from rapidgen._compat import Self
 from rapidgen._extras import named
 from rapidgen.axes.mapping import JointMap
 from rapidgen.client.egm.envelope import Envelope, Joints
-from rapidgen.client.errors import NotReady, RobotTimeout, TargetRejected
+from rapidgen.client.errors import NotReady, NotSupported, RobotTimeout, TargetRejected
 from rapidgen.client.pose import Pose
 from rapidgen.config import load_config
 from rapidgen.config.model import GroupConfig, RobotConfig
@@ -40,6 +40,7 @@ from rapidgen.client.egm.lag import Lag, LagMeter
 from rapidgen.client.egm.loop import Loop, LoopProcess
 
 if TYPE_CHECKING:
+    from rapidgen.client.collisions import CellCheck, GuidanceCheck
     from rapidgen.client.trajectory import Trajectory
 
 DEFAULT_PORT = 6510
@@ -56,6 +57,7 @@ def listen(
     fraction: float = 0.25,
     step: float = 0.1,
     timeout: float = 0.1,
+    cell: "CellCheck | None" = None,
 ) -> "EgmSession":
     """Wait for frames of a controller and answer them.
 
@@ -73,15 +75,18 @@ def listen(
         fraction: Of the speeds and accelerations of the configuration (0 to 1) that are sent.
         step: Largest difference between two targets, rad and m.
         timeout: s without a new target after which the robot stops.
+        cell: Check of a cell: targets are rejected if the robot may come too near to something.
 
     Raises:
         DiagnosticError: No such configuration or group.
+        NotSupported: Guidance of the TCP with a cell, which cannot be checked.
         ConnectionFailed: The port cannot be opened.
     """
     chosen = choose_group(config, group)
     limits = envelope or Envelope.of(chosen, fraction, step)
     exchange = PartnerExchange(JointMap.of(chosen), limits, timeout, guidance)
-    return EgmSession(limits, guidance, partial(LoopProcess, exchange, host, port))
+    guard = _guard(cell, guidance, limits, timeout)
+    return EgmSession(limits, guidance, partial(LoopProcess, exchange, host, port), guard=guard)
 
 
 def listen_async(
@@ -95,12 +100,32 @@ def listen_async(
     fraction: float = 0.25,
     step: float = 0.1,
     timeout: float = 0.1,
+    cell: "CellCheck | None" = None,
 ) -> "AsyncEgmSession":
     """Return a session for asyncio; arguments and errors are those of `listen`."""
     chosen = choose_group(config, group)
     limits = envelope or Envelope.of(chosen, fraction, step)
     exchange = PartnerExchange(JointMap.of(chosen), limits, timeout, guidance)
-    return AsyncEgmSession(limits, guidance, partial(LoopProcess, exchange, host, port))
+    guard = _guard(cell, guidance, limits, timeout)
+    loop = partial(LoopProcess, exchange, host, port)
+    return AsyncEgmSession(limits, guidance, loop, guard=guard)
+
+
+def _guard(
+    cell: "CellCheck | None", guidance: Guidance, envelope: Envelope, timeout: float
+) -> "GuidanceCheck | None":
+    """Return the check of targets in a cell (RG840: guidance of the TCP)."""
+    if cell is None:
+        return None
+    if guidance == "pose":
+        raise NotSupported.because(
+            "RG840",
+            "guidance of the TCP cannot be checked for collisions",
+            'guide joints (guidance="joints"), or listen without a cell',
+        )
+    from rapidgen.client.collisions import GuidanceCheck
+
+    return GuidanceCheck(cell, envelope, timeout)
 
 
 def choose_group(config: str | RobotConfig, name: str) -> GroupConfig:
@@ -127,8 +152,11 @@ class _Session:
         guidance: Guidance,
         connect: Callable[[Callable[[EgmState], None], Callable[[], None]], Loop],
         clock: Callable[[], float] = time.monotonic,
+        guard: "GuidanceCheck | None" = None,
     ) -> None:
         self.envelope = envelope
+        self._cell = guard
+        self._earlier: EgmState | None = None
         self.guidance = guidance
         self._clock = clock
         self._last: Joints | None = None
@@ -151,7 +179,7 @@ class _Session:
         if state.ended:
             state = replace(state, ended=self.explain() or state.ended)
         with self._changed:
-            self._state = state
+            self._earlier, self._state = self._state, state
             self._meter.add(state)
             if not state.guided or state.stopped:
                 self._last = self._last_pose = None
@@ -223,9 +251,21 @@ class _Session:
             rates = None if speeds is None else limits.check_speeds(speeds)
             values = None if joints is None else self.envelope.check(joints, self._before(state))
             place = None if pose is None else self.envelope.tcp.check(pose, self._pose(state))
+            if self._cell is not None:
+                targets = [t for t in (self._last, values) if t is not None] or [state.reference]
+                self._cell.check_target(state, self._speeds(state), targets, rates)
             self._last, self._last_pose = values, place
             moment = self._clock() if at is None else at
             self._post(Target(moment, values, place, rates, lasts))
+
+    def _speeds(self, state: EgmState) -> Joints:
+        """Return the speeds of the reference, from the last two states."""
+        earlier = self._earlier
+        time_ = 0.0 if earlier is None else state.controller_time - earlier.controller_time
+        if earlier is None or not time_ > 0:
+            return (0.0,) * len(state.reference)
+        pairs = zip(earlier.reference, state.reference, strict=True)
+        return tuple((b - a) / time_ for a, b in pairs)
 
     def _before(self, state: EgmState) -> Joints:
         return self._last or state.reference
@@ -275,7 +315,10 @@ class _Session:
         `path.since`: the robot goes there from where it is. Raises TargetRejected.
         """
         with self._changed:
-            self._check_path(path, self._guided().reference)
+            state = self._guided()
+            self._check_path(path, state.reference)
+            if self._cell is not None:
+                self._cell.check_path(path, state, self._speeds(state))
             self._last = None
             self._post(path)
 

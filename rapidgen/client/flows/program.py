@@ -44,10 +44,12 @@ _ANY = 1e6
 """s permitted to a routine without a time-out."""
 
 
-def run(core: Core, program: Program, mode: TransferMode | None) -> Flow[CommandedMotion]:
+def run(
+    core: Core, program: Program, mode: TransferMode | None, *, leaving: bool = False
+) -> Flow[CommandedMotion]:
     """Run a program by download or stream; None: download if it fits."""
     yield from ready(core)
-    checked, chosen = core.check_program(program, mode)
+    checked, chosen = core.check_program(program, mode, leaving=leaving)
     yield from control_answers(core)
     motion = core.begin_program(checked, chosen)
     yield from stream_accepted(core, motion)
@@ -81,13 +83,14 @@ def jog(core: Core, /, *, speed: SpeedLike = SLOW, **by: float) -> Flow[Result]:
     if by and not set(by) & set(group.names):
         place, turn = group.poses.pose(group.map.to_controller(state.joints))
         x, y, z = (at + by.get(name, 0.0) for at, name in zip(place, DIRECTIONS, strict=True))
-        moved = move_linear(core, Pose((x, y, z), turn), speed=speed)
+        step = Program(speed=speed).move_linear(Pose((x, y, z), turn))
     else:
         pairs = zip(group.names, state.joints, strict=True)
-        moved = move_to(core, [at + by.get(name, 0.0) for name, at in pairs], speed=speed)
+        step = Program(speed=speed).move_joints([at + by.get(name, 0.0) for name, at in pairs])
     timeout_before, core.heartbeat.timeout = core.heartbeat.timeout, _DEAD_MAN
     try:
-        return (yield from moved)
+        motion = yield from run(core, step, None, leaving=True)
+        return (yield from result(core, motion, None))
     finally:
         core.heartbeat.timeout = timeout_before
 
