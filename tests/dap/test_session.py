@@ -281,7 +281,11 @@ def test_show_target_and_lines_that_the_page_opens(program):
     path = program(PROGRAM.replace('TPWrite "done";', "MoveJ p, v100, fine, tool0;"))
     client = OwnClient(page)
     try:
-        client.begin(path, [13], robot="irb120", view=True)
+        client.ask("initialize", adapterID="rapidgen")
+        # In real time, what the page asks for wakes a paused controller.
+        client.ask("launch", program=str(path), robot="irb120", view=True)
+        client.set_lines(path, 13)
+        client.ask("configurationDone")
         client.stopped()
         source = {"path": str(path)}
         shown = client.ask("rapidgen/showTarget", source=source, line=10, name="v100")
@@ -290,7 +294,6 @@ def test_show_target_and_lines_that_the_page_opens(program):
         assert runner.editor.cursor == EditorCursor("m", 10, "v100")
         assert client.ask("rapidgen/showTarget", source=source, line=9)["targets"] == []
         runner.post(lambda: runner.editor.open("M", 13))
-        client.ask("threads")  # lets the virtual clock take what was posted
         opened = client.event("rapidgen/open")
         assert (opened["source"]["path"], opened["line"]) == (str(path), 13)
         # The page shows the breakpoints of the session: they have one debugger.
