@@ -16,7 +16,7 @@ project = "rapidgen"
 author = project_copyright = "the authors of rapidgen"
 release = version = __version__
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx_copybutton"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_copybutton"]
 exclude_patterns = ["changes"]
 
 html_theme = "furo"
@@ -35,7 +35,9 @@ copybutton_prompt_text = "$ "
 
 # A word between single backticks in a docstring is code, as in Markdown.
 default_role = "code"
-autodoc_default_options = {"members": True, "undoc-members": True, "show-inheritance": True}
+# `Attributes:` of a docstring are a list, since members have entries of their own.
+napoleon_use_ivar = True
+autodoc_default_options = {"members": True, "undoc-members": True}
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 autodoc_typehints_format = "short"

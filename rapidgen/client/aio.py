@@ -260,7 +260,7 @@ class AsyncRobot(RobotApi[AsyncFlowRunner]):
     async def jog(self, /, *, speed: SpeedLike = SLOW, **by: float) -> Result:
         """Move joints by name, or the tool along x, y, z, by a small step.
 
-        A step has at most 0.2 rad or 0.1 m, in the work object; the flow waits for the end. The
+        A step has at most 0.2 rad or 0.1 m, in the work object; the method waits for the end. The
         tool moves on a line and keeps its orientation; joints and directions exclude each other.
         During the motion the controller stops the robot if this client is silent for 0.2 s. Raises
         NotSupported without a control connection, otherwise as `run`.

@@ -1,4 +1,4 @@
-"""Errors of a robot, divided by what the caller can do about them.
+"""Errors of a robot, divided by what the caller can do about them::
 
     RobotError                    is a DiagnosticError; carries .messages and .states
     ├── InvalidTarget             no such configuration, group or address: correct the argument

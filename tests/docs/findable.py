@@ -37,7 +37,7 @@ ASKED: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "preview": (("preview", "dry run", "simulate motion"), ("use/shell", "start/simulation")),
     "3d": (("3d", "3d view", "visualize"), ("use/view",)),
     "pose": (("tcp pose", "forward kinematics", "pose python"), ("use/motion-programs",)),
-    "numpy": (("numpy", "numpy trajectory"), ("use/client", "reference/client")),
+    "numpy": (("numpy", "numpy trajectory"), ("use/client", "reference/client/trajectory")),
     "rollback": (("rollback", "previous version", "undo"), ("use/deploy", "learn/deployment")),
     "code": (("RG616", "rg616"), ("reference/codes",)),
     "container": (("docker", "container"), ("start/simulation",)),
