@@ -142,6 +142,7 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
                 preempt=parameters.preempt,
                 speed=parameters.stream_speed,
                 idle=parameters.stream_idle,
+                is_hardware=not parameters.has_action,
             )
             self._doors.append(
                 GroupInterface(self, make, parameters, space, name, stream, tells_clock=clock)

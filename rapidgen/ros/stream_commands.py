@@ -167,11 +167,14 @@ class CommandReader:
             )
         return Speeds(at, _finite("twist", command.twist), self.frames[command.frame])
 
-    def _joints(self, topic: str, command: JointCommand, now: float) -> Speeds | Positions:
+    def _joints(self, topic: str, command: JointCommand, now: float) -> Speeds | Positions | Hold:
         at = moment(command.stamp, now)
         order = self._order(command.names)
         if len([size for size in command.layout if size != 1]) > 1:
             raise _malformed("layout.dim has several dimensions", "send one value for each joint")
+        if len(command.positions) and all(map(math.isnan, command.positions)):
+            # Hardware of ros2_control, of which no controller is active yet.
+            return Hold()
         positions = self._columns("position", command.positions, order)
         velocities = self._columns("velocity", command.velocities, order)
         if positions is not None:
@@ -252,6 +255,11 @@ class StreamSettings:
     """Share of the configuration's speeds and accelerations."""
     idle: float = 10.0
     """s without motion after which the session is ended."""
+    is_hardware: bool = False
+    """Commands are those of ros2_control: they never cease, and may be old when they begin.
+
+    A session begins when they have rested where the robot stands, and lasts while they come.
+    """
 
 
 @dataclass(frozen=True, slots=True)
@@ -281,6 +289,12 @@ def moment(stamp: float, now: float) -> float:
             "synchronize the clocks; stamp 0 is now",
         )
     return min(stamp, now)
+
+
+def distance(request: Positions, joints: Sequence[float]) -> tuple[float, int]:
+    """Return the largest difference to positions of joints, and the index of its joint."""
+    pairs = zip(request.values, joints, strict=True)
+    return max((abs(a - b), i) for i, (a, b) in enumerate(pairs))
 
 
 def repeats(request: Request, held: Sequence[float]) -> bool:

@@ -19,6 +19,7 @@ from rapidgen.client.egm.exchange import CYCLE, Path
 from rapidgen.client.errors import NotReady, RobotError, TargetRejected
 from rapidgen.ros.goal_execution import reason
 from rapidgen.ros.stream_commands import (
+    HELD,
     SILENCE,
     Command,
     CommandIgnored,
@@ -29,6 +30,7 @@ from rapidgen.ros.stream_commands import (
     Spline,
     StreamReport,
     StreamSettings,
+    distance,
     repeats,
 )
 from rapidgen.ros.twist_motion import SLOW, TwistMotion
@@ -37,6 +39,8 @@ PAUSE = 0.5
 """s without a command after which a stream that was interrupted may move the robot again."""
 AGAIN = 1.0
 """s between two reports of the same code and topic."""
+NEAR = 0.01
+"""rad or m: where commands of ros2_control have to rest before they may move the robot."""
 FOREVER = 1e9
 """s: a position stays the target until the next one."""
 
@@ -86,6 +90,7 @@ class StreamExecutor:
         self._speeds: tuple[float, ...] = ()
         self._received = float("-inf")
         self._ended = False
+        self._resting: tuple[Positions, float] | None = None
         self._blocked = ""
         self._moved = float("-inf")
         self._stands = True
@@ -128,6 +133,12 @@ class StreamExecutor:
     def _take(self, topic: str, command: Command, request: Request, gap: float) -> None:
         if isinstance(request, Speeds) and request.axes != "joints" and not self._twist.is_possible:
             raise CommandIgnored("RG694", "the geometry of the robot or its tool is not known")
+        if self._settings.is_hardware and self._session is None:
+            if self._is_resting(request):
+                self._blocked = ""
+                self._pending = topic, command, request
+                self._wanted.set()
+            return
         is_silence = self._is_silence(request)
         if self._blocked and (gap >= PAUSE or is_silence):
             self._blocked = ""
@@ -148,11 +159,34 @@ class StreamExecutor:
         session = self._session
         if session is not None:
             self._execute(session, request, gap)
-            if not is_silence:
+            if not is_silence or self._settings.is_hardware:
                 self._moved = self._loop_time()
         elif not is_silence:
             self._pending = topic, command, request
             self._wanted.set()
+
+    def _is_resting(self, request: Request) -> bool:
+        """True if commands of ros2_control have been where the robot stands for some time.
+
+        Raises CommandIgnored if they are elsewhere: a controller that begins there would move the
+        robot by more than was asked for.
+        """
+        if not isinstance(request, Positions):
+            self._resting = None
+            return False
+        joints, now = self._robot.state.joints, self._loop_time()
+        far, index = distance(request, joints)
+        if far > NEAR:
+            self._resting = None
+            raise CommandIgnored(
+                "RG694",
+                f"{self._settings.reader.names[index]} is commanded {far:.3f} away from where the "
+                "robot stands",
+                "activate the controller again, so that it begins where the robot is",
+            )
+        if self._resting is None or distance(request, self._resting[0].values)[0] > HELD:
+            self._resting = request, now
+        return now - self._resting[1] >= PAUSE
 
     def _is_silence(self, request: Request) -> bool:
         """True if a request asks for no motion of a robot that stands."""

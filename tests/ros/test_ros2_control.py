@@ -4,15 +4,20 @@ Messages are those of `joint_state_topic_hardware_interface` 1.1.0 and of its ve
 their sources have them; the real controller_manager is not available as a wheel.
 """
 
+import asyncio
+import math
 import xml.etree.ElementTree as ET
 
+import numpy as np
 import pytest
 from ruamel.yaml import YAML
+from streamed import NAMES, streamed
 
 from rapidgen.config import load_config
 from rapidgen.controller.controller import VirtualController
 from rapidgen.generate import build, make_system
 from rapidgen.ros.package import CellMember, ros2_cell, ros2_packages
+from rapidgen.ros.stream_commands import JointCommand
 
 EGM = "egm: {address: 127.0.0.1, max_deviation: 20, max_speed: 45}\n"
 
@@ -141,3 +146,121 @@ def test_rcl_finds_the_parameters_in_any_namespace(request, guided, tmp_path, na
         )
         assert node.get_parameter(parameter).value == value
         node.destroy_node()
+
+
+CYCLE = 0.004
+"""s: `update_rate` of the generated controllers.yaml."""
+
+
+class Hardware:
+    """`JointStateTopicSystem::write`: one message a cycle, whatever the commands are.
+
+    They are `first` until a controller is active: NaN in 1.1.0, 0.0 in 0.2.1.
+    """
+
+    def __init__(self, station, first):
+        self.station, self.commands = station, (first,) * 6
+
+    def write(self):
+        command = JointCommand(self.commands, names=NAMES, stamp=self.station.loop.time())
+        self.station.link.command("joint_commands", command)
+
+    async def update(self, seconds, controller=None):
+        """Run cycles; `controller` gives commands by the time since it became active."""
+        rows = []
+        for number in range(round(seconds / CYCLE)):
+            if controller is not None:
+                self.commands = tuple(controller(number * CYCLE))
+            self.write()
+            await asyncio.sleep(CYCLE)
+            rows.append(self.station.joints - self.commands)
+        return np.array(rows)
+
+
+def hold(joints):
+    """A controller that holds the position that it read when it was activated."""
+    return lambda _: joints
+
+
+def quintic(begin, end, seconds):
+    """joint_trajectory_controller: a segment between two points at rest."""
+
+    def at(time):
+        x = min(time / seconds, 1.0)
+        share = x**3 * (10 - 15 * x + 6 * x**2)
+        return begin + share * (end - begin)
+
+    return at
+
+
+def test_trajectory_of_a_controller_is_followed():
+    """At 250 Hz the robot is behind by the gain of the guidance (5 /s), and ends at the goal."""
+
+    async def use(s):
+        hardware = Hardware(s, math.nan)
+        begin = s.joints
+        await hardware.update(1.0)
+        assert not s.streamer.is_open
+        await hardware.update(2.5, hold(begin))
+        assert s.streamer.is_measuring
+        assert np.abs(s.joints - begin).max() < 1e-3
+        goal = begin + np.array([0.3, -0.1, 0.1, 0.2, -0.2, 0.3])
+        behind = await hardware.update(2.0, quintic(begin, goal, 2.0))
+        peak = 0.3 * 1.875 / 2.0
+        assert np.abs(behind).max() < 2 * peak / 5
+        await hardware.update(2.0, hold(goal))
+        assert np.abs(s.joints - goal).max() < 1e-3
+        # A controller that holds for longer than `idle` keeps the session.
+        await hardware.update(3.0, hold(goal))
+        assert s.streamer.is_measuring
+        assert not s.reports, s.reports
+
+    streamed(use, is_hardware=True, speed=1.0, idle=2.0)
+
+
+def test_commands_elsewhere_do_not_move_the_robot():
+    """The zeros of 0.2.1, and an old command after a restart: nothing goes there."""
+
+    async def use(s):
+        begin = s.joints
+        hardware = Hardware(s, 0.0)
+        away = begin + 0.2
+        await hardware.update(2.0, hold(away))
+        assert np.abs(s.joints - begin).max() < 1e-6
+        assert not s.streamer.is_open
+        (code,) = {report.code for report in s.reports}
+        assert code == "RG694"
+        assert "0.200 away from where the robot stands" in s.reports[0].text
+        # Passing by is not resting there.
+        await hardware.update(2.0, quintic(away, begin - 0.2, 2.0))
+        assert not s.streamer.is_open
+        assert np.abs(s.joints - begin).max() < 1e-6
+
+    streamed(use, is_hardware=True)
+
+
+def test_trajectory_after_a_stop_does_not_go_on():
+    """JTC sends the rest of its trajectory whether the robot moves or not."""
+
+    async def use(s):
+        hardware = Hardware(s, math.nan)
+        begin = s.joints
+        await hardware.update(3.0, hold(begin))
+        way = quintic(begin, begin + 0.4, 4.0)
+        await hardware.update(1.5, way)
+        await s.link.stop()
+        stopped = s.joints
+        await hardware.update(2.0, lambda time: way(1.5 + time))
+        braked = s.joints
+        assert np.abs(braked - stopped).max() < 0.1
+        await hardware.update(3.0, hold(begin + 0.4))
+        assert np.abs(s.joints - braked).max() < 1e-3
+        assert s.reports[-1].code == "RG694"
+        # A controller that is activated again begins where the robot stands.
+        here = s.joints
+        await hardware.update(2.5, hold(here))
+        assert s.streamer.is_measuring
+        await hardware.update(3.0, quintic(here, here + 0.1, 1.0))
+        assert np.abs(s.joints - (here + 0.1)).max() < 1e-3
+
+    streamed(use, is_hardware=True, speed=1.0)
