@@ -89,7 +89,7 @@ class StreamExecutor:
         self._twisting: Speeds | None = None
         self._speeds: tuple[float, ...] = ()
         self._received = float("-inf")
-        self._ended = False
+        self._ended = self._is_faulty = False
         self._resting: tuple[Positions, float] | None = None
         self._blocked = ""
         self._moved = float("-inf")
@@ -122,7 +122,7 @@ class StreamExecutor:
         except CommandIgnored as ignored:
             self._ignore(topic, ignored.code, ignored.text)
         except TargetRejected as rejected:
-            self._ignore(topic, rejected.diagnostics[0].code, rejected.diagnostics[0].message)
+            self._ignore(topic, *_first(rejected))
 
     def _gap(self) -> float:
         """Return s since the last command of any topic."""
@@ -161,6 +161,7 @@ class StreamExecutor:
             self._execute(session, request, gap)
             if not is_silence or self._settings.is_hardware:
                 self._moved = self._loop_time()
+                self._recovered(topic)
         elif not is_silence:
             self._pending = topic, command, request
             self._wanted.set()
@@ -197,7 +198,6 @@ class StreamExecutor:
 
     def _execute(self, session: AsyncEgmSession, request: Request, gap: float) -> None:
         """Send a request to an open session. Raises TargetRejected."""
-        twisting, self._twisting = self._twisting, None
         at_rest = (0.0,) * len(self._settings.reader.names)
         lasts = SILENCE
         if isinstance(request, Speeds | Positions):
@@ -205,10 +205,11 @@ class StreamExecutor:
         match request:
             case Speeds() if request.axes != "joints":
                 session.envelope.tcp.check_speeds(request.values)
-                if twisting is None:
+                if self._twisting is None:
                     self._speeds = at_rest
                 self._twisting = request
                 self._twist_on(session, CYCLE)
+                return
             case Speeds():
                 session.send(speeds=request.values, lasts=lasts)
             case Positions() if request.speeds is not None:
@@ -223,6 +224,8 @@ class StreamExecutor:
                 )
             case Hold():
                 session.send(speeds=at_rest, lasts=FOREVER)
+        # Not before: what is rejected ends nothing.
+        self._twisting = None
 
     def _twist_on(self, session: AsyncEgmSession, time: float) -> None:
         """Send the joint speeds of the next cycle of a twist, until it is too old."""
@@ -252,17 +255,25 @@ class StreamExecutor:
             await self._wanted.wait()
             self._leave.clear()
             self._closed.clear()
+            failed = False
             try:
                 if self._goals.is_busy:
                     await self._goals.preempt()
                 async with self._robot.egm(fraction=self._settings.speed) as session:
                     await self._serve(session)
             except RobotError as error:
-                self._interrupt(error.diagnostics[0].code, reason(error))
+                # Frames may end before the driver's report of the reason comes.
+                failed = True
+                known = "" if self._session is None else self._session.explain()
+                self._interrupt(
+                    "RG697" if known else error.diagnostics[0].code, known or reason(error)
+                )
             finally:
                 self._session = self._twisting = self._pending = None
-                self._wanted.clear()
                 self._closed.set()
+            if failed:
+                await asyncio.sleep(AGAIN)
+            self._wanted.clear()
 
     def end(self) -> None:
         """Let `run` end: its cancellation may be lost in a wait for the next frame."""
@@ -308,7 +319,12 @@ class StreamExecutor:
             seen, now = state, self._loop_time()
             if not self._stands:
                 self._moved = now
-            self._twist_on(session, max(passed, 0.0))
+            try:
+                self._twist_on(session, max(passed, 0.0))
+            except TargetRejected as rejected:
+                # What was sent last is in force for 0.1 s at most; then the robot slows down.
+                self._twisting = None
+                self._ignore("twist_commands", *_first(rejected))
             if now - self._moved > self._settings.idle:
                 return
 
@@ -327,7 +343,7 @@ class StreamExecutor:
         except CommandIgnored as ignored:
             self._ignore(topic, ignored.code, ignored.text)
         except TargetRejected as rejected:
-            self._ignore(topic, rejected.diagnostics[0].code, rejected.diagnostics[0].message)
+            self._ignore(topic, *_first(rejected))
 
     # -- reports ----------------------------------------------------------------------------
 
@@ -345,10 +361,21 @@ class StreamExecutor:
         if now - self._reported.get((report.code, report.topic), float("-inf")) >= AGAIN:
             self._reported[report.code, report.topic] = now
             self._public.streaming(report)
+            self._is_faulty = bool(report.code)
+
+    def _recovered(self, topic: str) -> None:
+        if self._is_faulty and self._twisting is None:
+            self._tell(StreamReport("", f"{topic} executed", topic))
 
     @staticmethod
     def _loop_time() -> float:
         return asyncio.get_running_loop().time()
+
+
+def _first(rejected: TargetRejected) -> tuple[str, str]:
+    """Return code and message."""
+    diagnostic = rejected.diagnostics[0]
+    return diagnostic.code, diagnostic.message
 
 
 def _interpolated(

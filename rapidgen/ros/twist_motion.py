@@ -23,6 +23,8 @@ _SINGULAR = 1e-6
 """Smallest singular value of a Jacobian (rad, m) whose inverse has a meaning."""
 _EDGE = 1e-4
 """rad or m that stay free between a joint and the end of its range."""
+_LATE = 0.02
+"""s for which a joint goes on before a new speed is executed."""
 SLOW = 0.5
 """Share of a requested speed below which the motion counts as slowed down."""
 
@@ -90,17 +92,20 @@ class TwistMotion:
                 return self._ramped(np.zeros(len(joints)), before, time, 0.0, "a singularity")
             values = np.maximum(values, _SINGULAR)
         rates = right.T @ ((left.T @ wanted) / values)
-        share, limit = self._share(rates, joints)
+        share, limit = self._share(rates, joints, before)
         return self._ramped(rates * share, before, time, share, limit)
 
-    def _share(self, rates: Array, joints: Sequence[float]) -> tuple[float, str]:
+    def _share(
+        self, rates: Array, joints: Sequence[float], before: Sequence[float]
+    ) -> tuple[float, str]:
         """Return the share of speeds that every joint may have, and the slowest joint."""
         share, limit = 1.0, ""
         for i, (rate, value) in enumerate(zip(rates, joints, strict=True)):
             if rate == 0:
                 continue
             end = self.envelope.upper[i] if rate > 0 else self.envelope.lower[i]
-            free = max(abs(end - value) - _EDGE, 0.0) if (end - value) * rate > 0 else 0.0
+            free = abs(end - value) if (end - value) * rate > 0 else 0.0
+            free = max(free - _EDGE - abs(before[i]) * _LATE, 0.0)
             stops = math.sqrt(2 * self.envelope.acceleration[i] * free)
             allowed = min(self.envelope.speed[i], stops) / abs(rate)
             if allowed < share:

@@ -50,6 +50,8 @@ class Station:
         self.controller, self.loop, self.group = controller, loop, config.groups[0]
         self.record = Record()
         self.robot = None
+        self.references = []
+        """Of each state of a session."""
 
         def make():
             ports = self.group.ports
@@ -59,6 +61,13 @@ class Station:
 
         stream = StreamSettings(self.group, CommandReader.of(self.group), **settings)
         self.link = RobotLink(make, Policy(), loop.time, self.record, stream=stream)
+        measured = self.link.measured
+
+        def noted(state):
+            self.references.append(state.reference)
+            measured(state)
+
+        self.link.measured = noted
 
     def listen(self, config, *, fraction, step, timeout, **_):
         envelope = Envelope.of(self.group, fraction, step)
@@ -123,8 +132,8 @@ class Station:
 
 
 @contextmanager
-def station(name=EGM, monkeypatch=None, **settings):
-    controller, config = booted(name)
+def station(name=EGM, overrides=None, **settings):
+    controller, config = booted(name, overrides=overrides)
     loop = VirtualLoop(controller)
     with controller:
         made = Station(controller, config, loop, **settings)
