@@ -388,6 +388,8 @@ class UploadedTrajectory(MessageModel):
     """
     pace: tuple[float, ...] = ()
     """TCP speed from the place before to each of `way`, m/s."""
+    clearance: tuple[float, ...] = ()
+    """m: least distance of bodies at each place, at most 0.1; empty: not checked."""
     steps: int = 1
     """Places of `way` from a point to the next."""
     findings: tuple[TrajectoryFinding, ...] = ()

@@ -5,7 +5,7 @@ Light and dark theme [WCAG 2.2: 1.4.3, 2.1.1].
 
 import pytest
 
-from tests.viewer.bench import STATE, until
+from tests.viewer.bench import DOCS, STATE, until
 
 pytestmark = pytest.mark.browser
 TABS = ("Pendant", "Program", "Jog", "Signals", "Log", "Path", "Network")
@@ -151,3 +151,16 @@ def test_the_emergency_stop_works_by_the_keyboard(irb120, open_page):
     page.get_by_role("button", name="On", exact=True).focus()
     page.keyboard.press("Space")
     until(page, "document.querySelector('header').textContent", lambda t: "Motors on" in t)
+
+
+def test_documented_keys_are_those_of_the_help(irb120, open_page):
+    page = open_page(irb120["view"])
+    until(page, STATE)
+    page.keyboard.press("?")
+    rows = page.get_by_role("dialog").locator("tbody tr").all()
+    shown = [tuple(row.locator("th, td").all_inner_texts()) for row in rows]
+    page.keyboard.press("Escape")
+    assert page.get_by_role("dialog").count() == 0
+    text = (DOCS / "view.md").read_text(encoding="utf-8").split("## Keyboard")[1].split("##")[0]
+    lines = [line for line in text.splitlines() if line.startswith("|")][2:]
+    assert [tuple(cell.strip() for cell in line.strip("|").split("|")) for line in lines] == shown

@@ -66,19 +66,47 @@ def test_contact_is_shown_in_red_with_points_and_ghost(ready, open_page):
     assert page.evaluate(f"Object.keys({BODIES}).length") == 2
 
 
-def test_nearest_pair_has_its_distance_after_a_jog(ready, open_page):
-    page = open_page(ready["view"])
+def jogged_away(page):
+    """Stop the program and turn the robot away from the post."""
     until(page, STATE)
     page.get_by_role("tab", name="Pendant").click()
     page.get_by_role("button", name="Stop", exact=True).click()
     page.get_by_role("tab", name="Jog", exact=True).click()
     figure = page.get_by_label("joint_1 in °")
-    for angle, bodies in (("0", {}), ("-60", {})):
-        figure.fill(angle)
-        figure.press("Enter")
-        until(page, BODIES, lambda now, bodies=bodies: now == bodies)
+    figure.fill("-60")
+    figure.press("Enter")
+    until(page, f"{STATE}.groups[0].axes[0]", lambda angle: abs(angle + 1.0471976) < 1e-6)
+
+
+@pytest.mark.long
+def test_bodies_are_free_after_a_jog(ready, open_page):
+    page = open_page(ready["view"])
+    jogged_away(page)
+    until(page, BODIES, lambda now: now == {})
     page.get_by_role("tab", name="Collisions").click()
     until(page, PANEL, lambda text: "nearer than 100 mm" in text)
+
+
+@pytest.mark.long
+def test_dropped_path_into_an_object_is_rejected(ready, open_page, tmp_path):
+    page = open_page(ready["view"])
+    jogged_away(page)
+    start = page.evaluate(STATE)["groups"][0]["joints"][:6]
+    for name, angle in (("into.csv", 1.2), ("away.csv", -1.2)):
+        rows = ["time," + ",".join(f"joint_{i}" for i in range(1, 7))]
+        rows += [",".join(map(str, (t, a, *start[1:]))) for t, a in ((0, start[0]), (4, angle))]
+        (tmp_path / name).write_text("\n".join(rows))
+    page.get_by_role("tab", name="Path").click()
+    shown = "document.querySelector('#panel-trajectory').innerText"
+    page.get_by_label("Trajectory file").set_input_files(tmp_path / "into.csv")
+    text = until(page, shown, lambda text: "Rejected." in text)
+    assert "RG820" in text
+    assert "grip touches post" in text
+    assert "in contact" in text
+    page.get_by_label("Trajectory file").set_input_files(tmp_path / "away.csv")
+    text = until(page, shown, lambda text: "Ready to execute." in text)
+    assert "clearance above 100 mm" in text
+    page.get_by_role("button", name="Remove").click()
 
 
 def test_objects_zones_and_tools_are_drawn(ready, open_page):

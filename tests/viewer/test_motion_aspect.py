@@ -6,7 +6,7 @@ import pytest
 
 from rapidgen.controller.boot_targets import BootOptions, load_target
 from rapidgen.controller.runner import ControllerRunner
-from rapidgen.viewer.messages import Jog, JogTo
+from rapidgen.viewer.messages import Jog, JogBy, JogTo
 from rapidgen.viewer.provider import RequestRejected
 from rapidgen.viewer.simulator.motion import MotionProvider
 
@@ -65,6 +65,49 @@ def test_a_robot_that_is_jogged_keeps_its_tool(tmp_path):
         here = displayed().axes
         handlers[Jog](Jog(group=name, axes=(None, None, None, None, None, 0.3)))
         assert displayed().axes == pytest.approx((*here[:5], 0.3))
+
+
+def test_steps_follow_the_axes_of_the_frame(tmp_path):
+    """Tool z points down here, and the work object is turned by 90 degrees about z."""
+    module = tmp_path / "held.mod"
+    turned = "[[300,0,100],[0.70710678,0,0,0.70710678]]"
+    module.write_text(
+        WITH_A_TOOL.replace("[[300,0,100],[1,0,0,0]]", turned).replace("[10,20,50]", "[20,-10,50]")
+    )
+    target = load_target([str(module)], BootOptions(robot="irb120"))
+    with ControllerRunner.boot(target, clock="virtual") as runner:
+        runner.controller.run_for(20)
+        aspect = MotionProvider(runner)
+        (name,) = runner.controller.motion.groups
+
+        def displayed():
+            _, positions = aspect.whole()
+            return positions.groups[0]
+
+        assert "stop it first" in displayed().blocked
+        runner.controller.stop_program()
+        runner.controller.run_for(1)
+        assert displayed().blocked == ""
+        by, to = aspect.handlers()[JogBy], aspect.handlers()[JogTo]
+        x, y, z = displayed().tcp.position
+        for frame, axis, moved in (
+            ("base", 0, (x + 0.01, y, z)),
+            ("work_object", 0, (x + 0.01, y + 0.01, z)),
+            ("tool", 2, (x + 0.01, y + 0.01, z - 0.01)),
+        ):
+            by(JogBy(group=name, frame=frame, axis=axis, distance=0.01))
+            assert displayed().tcp.position == pytest.approx(moved, abs=1e-6)
+        before = displayed().tcp
+        by(JogBy(group=name, frame="base", axis=2, angle=0.1))
+        after = displayed().tcp
+        assert after.position == pytest.approx(before.position, abs=1e-6)
+        cosine = abs(sum(a * b for a, b in zip(before.orientation, after.orientation, strict=True)))
+        assert cosine == pytest.approx(math.cos(0.05), abs=1e-6)
+        # x of the work object is y of the world.
+        to(JogTo(group=name, frame="work_object", position=(0.03, None, None), orientation=None))
+        assert displayed().tcp.position[1] == pytest.approx(0.03, abs=1e-6)
+        with pytest.raises(RequestRejected, match="does not reach"):
+            by(JogBy(group=name, frame="base", axis=0, distance=1.0))
 
 
 def test_a_robot_that_stands_at_its_limit_is_jogged(tmp_path):

@@ -5,7 +5,7 @@ import pytest
 
 from rapidgen.axes.kinematics import Kinematics
 from rapidgen.config import load_config
-from tests.viewer.bench import STATE, simulator, until
+from tests.viewer.bench import STATE, picture_for_docs, simulator, until
 
 pytestmark = pytest.mark.browser
 PROGRAM = """MODULE p
@@ -44,6 +44,10 @@ def test_targets_of_the_program_and_the_frames_of_its_moves_are_drawn(ready, ope
     assert np.linalg.norm(np.array(aims[0]["pose"]["position"]) - place) == pytest.approx(0.12)
     # The work object's frame is where the move has it.
     until(page, f"{STATE}.groups[0].work_object.position", lambda at: at[0] == pytest.approx(0.3))
+    page.get_by_role("button", name="Close hint").click()
+    page.get_by_role("tab", name="Program").click()
+    page.locator(".cm-at-program").wait_for()
+    picture_for_docs(page, "view")
     displayed = "rapidgen.stage.robots.get('rob1').object.visible"
     until(page, displayed)
     page.get_by_text("Layers").click()

@@ -118,6 +118,7 @@ def test_no_state_covers_controls_or_moves_panels(open_page):
     open_page.faults.clear()
 
 
+@pytest.mark.long
 def test_jog_in_frames_moves_along_their_axes(irb120, open_page):
     page = open_page(irb120["view"])
     until(page, STATE)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.viewer.bench import STATE, picture_for_docs, until
+from tests.viewer.bench import STATE, until
 
 pytestmark = pytest.mark.browser
 NAMES = ",".join(f"joint_{i}" for i in range(1, 7))
@@ -35,6 +35,5 @@ def test_a_trajectory_is_checked_drawn_and_executed(irb120, open_page):
     page.get_by_role("button", name="Execute").click()
     until(page, SHOWN, lambda text: "Executed." in text)
     until(page, f"{STATE}.groups[0].joints", lambda now: np.allclose(now, GOAL, atol=1e-5))
-    picture_for_docs(page, "view")
     page.get_by_role("button", name="Remove").click()
     until(page, "document.querySelector('#panel-trajectory section:last-child').hidden")

@@ -20,7 +20,7 @@ from rapidgen.client.errors import InvalidTrajectory, RobotError
 from rapidgen.client.trajectory import Array
 from rapidgen.config.model import TrajectoryPolicy
 from rapidgen.controller.runner import ControllerRunner
-from rapidgen.diagnostics import Diagnostic
+from rapidgen.diagnostics import Diagnostic, Severity
 from rapidgen.motion.group import MotionGroup
 from rapidgen.viewer.messages import Request, ToPage
 from rapidgen.viewer.panel_messages import (
@@ -102,6 +102,10 @@ class TrajectoryProvider:
         times = np.repeat(checked.durations[1:] / steps, steps).tolist()
         legs = zip(way, way[1:], times, strict=False)
         lines = checked.trajectory.lines
+        clearance, met = self._collisions(group, checked, steps)
+        findings = [_finding(result, lines) for result in checked.warnings]
+        if any(one.severity is Severity.ERROR for one in met):
+            self._checked = None
         return UploadedTrajectory(
             group=group.name,
             file=name,
@@ -110,8 +114,41 @@ class TrajectoryProvider:
             way=way,
             pace=(0.0, *(distance(a, b) / s for a, b, s in legs)) if way else (),
             steps=steps,
-            findings=tuple(_finding(result, lines) for result in checked.warnings),
+            clearance=clearance if way else (),
+            findings=(*findings, *(_finding(result, ()) for result in met)),
+            state="checked" if self._checked is not None else "refused",
         )
+
+    def _collisions(
+        self, group: MotionGroup, checked: CheckedPoints, steps: int
+    ) -> tuple[tuple[float, ...], tuple[Diagnostic, ...]]:
+        """Return the clearance at each drawn place, and findings; nothing without detection.
+
+        Other robots stand where they are. The corners of the driver are not part of the path.
+        """
+        monitor = self._controller.collisions
+        if monitor is None:
+            return (), ()
+        from rapidgen.collision.check import LIMIT, check_path, clearances
+        from rapidgen.collision.path import Path as CheckedPath
+
+        world, count = monitor.world, len(group.config.joints)
+        rows = np.array(list(_between(checked.wire, steps)))[:, :count]
+        groups = self._controller.motion.groups
+        postures = {
+            name: np.repeat([groups[name].positions()], len(rows), axis=0)
+            for name in world.columns
+            if name != group.name
+        }
+        values = world.values({group.name: rows, **postures})
+        legs = np.repeat(np.maximum(checked.durations[1:], 1e-6) / steps, steps)
+        times = np.concatenate([[0.0], legs.cumsum()])
+        path = CheckedPath.linear(times, values)
+        curve = np.minimum(clearances(world.scene, path, times).curve(), LIMIT)
+        report = check_path(
+            world, path, lambda at: (f"after point {int(at // steps)}", None), Severity.ERROR
+        )
+        return tuple(curve.tolist()), report.diagnostics
 
     # -- executing ----------------------------------------------------------------------------
 

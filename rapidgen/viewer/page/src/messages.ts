@@ -624,6 +624,7 @@ export interface UploadedTrajectory {
   readonly points: number;
   readonly way: readonly (readonly [number, number, number])[];
   readonly pace: readonly number[];
+  readonly clearance: readonly number[];
   readonly steps: number;
   readonly findings: readonly TrajectoryFinding[];
   readonly state: "refused" | "checked" | "running" | "done" | "failed";

@@ -4,6 +4,7 @@ import { h, say, section } from "../dom";
 import type { UploadedTrajectory, TrajectoryFinding } from "../messages";
 import type { MakePanel } from "../panel";
 
+const FREE = 0.1; // m: clearances above are not measured
 const STATES: Record<UploadedTrajectory["state"], string> = {
   refused: "Rejected.", checked: "Ready to execute.", running: "Executing …", done: "Executed.", failed: "Not completed.",
 };
@@ -42,17 +43,26 @@ export const trajectoryPanel: MakePanel = ({ link, stage, order, notice }) => {
     result.hidden = now.file === "";
     const fastest = Math.max(0, ...now.pace);
     say(about, `${now.file}: ${now.points} points in ${now.seconds.toFixed(2)} s` +
-      (now.pace.length ? `, TCP up to ${(fastest * 1000).toFixed(0)} mm/s` : ""));
+      (now.pace.length ? `, TCP up to ${(fastest * 1000).toFixed(0)} mm/s` : "") + clearanceText(now.clearance));
     about.hidden = now.points === 0;
     say(state, now.detail ? `${STATES[now.state]} ${now.detail}` : STATES[now.state]);
     run.disabled = now.state === "refused" || now.state === "running";
     findings.replaceChildren(...now.findings.map(row));
     const marks = now.findings.flatMap((found) => (found.point === null ? [] : [found.point * now.steps]));
-    stage?.route(now.group, now.way, now.pace, marks);
+    // With collision checks the path shows where it is close, otherwise where it is fast.
+    const warmth = now.clearance.length ? now.clearance.map((value) => 1 - Math.max(0, value) / FREE) : now.pace.map((value) => value / Math.max(1e-9, fastest));
+    stage?.route(now.group, now.way, warmth, marks);
   });
   const element = h("div", { class: "panel" }, section("Check a trajectory", robot, place), result);
   return { id: "trajectory", title: "Path", element, kinds: ["simulation"] };
 };
+
+function clearanceText(clearance: readonly number[]): string {
+  if (!clearance.length) return "";
+  const least = Math.min(...clearance);
+  if (least >= FREE) return ", clearance above 100 mm";
+  return least > 0 ? `, least clearance ${(least * 1000).toFixed(1)} mm` : ", in contact";
+}
 
 function row(found: TrajectoryFinding): HTMLElement {
   const kind = found.severity === "error" ? "error" : "warning";

@@ -121,15 +121,14 @@ export class Trail {
 }
 
 export function drawnWay(
-  way: readonly (readonly number[])[], pace: readonly number[], marks: readonly number[], palette: Palette,
+  way: readonly (readonly number[])[], warmth: readonly number[], marks: readonly number[], palette: Palette,
 ): THREE.Object3D[] {
   if (way.length < 2) return [];
   const points = way.map((point) => new THREE.Vector3(...point));
   const geometry = new THREE.BufferGeometry().setFromPoints(points);
-  const fastest = Math.max(1e-9, ...pace);
   const calm = new THREE.Color(palette.frame[2]);
   const warm = new THREE.Color(palette.limit);
-  const colours = points.flatMap((_, i) => calm.clone().lerp(warm, (pace[i] ?? 0) / fastest).toArray());
+  const colours = points.flatMap((_, i) => calm.clone().lerp(warm, warmth[i] ?? 0).toArray());
   geometry.setAttribute("color", new THREE.Float32BufferAttribute(colours, 3));
   const line = new THREE.Line(geometry, new THREE.LineBasicMaterial({ vertexColors: true }));
   const ball = new THREE.SphereGeometry(0.012, 12, 8);

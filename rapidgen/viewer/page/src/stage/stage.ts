@@ -195,11 +195,11 @@ export class Stage {
     this.element.toBlob((blob) => { if (blob) taken(blob); });
   }
 
-  /** Draw a path of the TCP, coloured by speed (m/s), with marks at some of its points; empty: none. */
-  route(group: string, way: readonly (readonly number[])[], pace: readonly number[], marks: readonly number[]): void {
+  /** Draw a path of the TCP, coloured by `warmth` from 0 to 1, with marks at some of its points; empty: none. */
+  route(group: string, way: readonly (readonly number[])[], warmth: readonly number[], marks: readonly number[]): void {
     this.way.clear();
     this.robots.get(group)?.root.add(this.way);
-    for (const part of drawnWay(way, pace, marks, this.palette)) this.way.add(part);
+    for (const part of drawnWay(way, warmth, marks, this.palette)) this.way.add(part);
     this.draw();
   }
 
