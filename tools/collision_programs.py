@@ -1,7 +1,8 @@
 """Collision checks of random programs in random cells, against samples every millisecond.
 
 Each program has joint and linear moves with random corners, on one of three robots with a
-description, among random boxes and spheres. The proof of its planned path (samples every 4 ms and
+description, or on one with a track and a positioner, among random boxes and spheres. A part stands
+on the positioner. The proof of its planned path (samples every 4 ms and
 bounds between them) is compared with distances at samples every 1 ms of the same motion: a pair is
 missed if a sample is below its clearance and the proof does not report it, and false if no sample
 is and the proof reports it. False reports are printed with their distance.
@@ -25,7 +26,7 @@ from rapidgen.controller.controller import VirtualController
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.machine.scheduler import S
 
-ROBOTS = {"irb120": 0.58, "irb2400": 1.5, "irb910sc": 0.55}
+ROBOTS = {"irb120": 0.58, "irb2400": 1.5, "irb910sc": 0.55, "irb120_track": 0.58}
 """Robots with a description in robots/urdf, and their reach in m."""
 URDF = Path(__file__).resolve().parents[1] / "robots" / "urdf"
 _MS = S // 1000
@@ -40,7 +41,10 @@ def target(rng: np.random.Generator, robot: str) -> str:
     else:
         axes = [*rng.uniform(-80, 80, 1), *rng.uniform(-30, 40, 2), *rng.uniform(-70, 70, 3)]
     robax = ",".join(f"{value:.2f}" for value in axes)
-    return f"[[{robax}],[9E9,9E9,9E9,9E9,9E9,9E9]]"
+    extax = "9E9,9E9"
+    if robot == "irb120_track":
+        extax = f"{rng.uniform(400, 1600):.1f},{rng.uniform(-170, 170):.2f}"
+    return f"[[{robax}],[{extax},9E9,9E9,9E9,9E9]]"
 
 
 def program(rng: np.random.Generator, robot: str) -> str:
@@ -65,6 +69,8 @@ def cell(rng: np.random.Generator, robot: str) -> str:
     for number in range(6):
         angle, far = rng.uniform(-math.pi, math.pi), rng.uniform(0.5, 1.0) * reach
         place = [far * math.cos(angle), far * math.sin(angle), rng.uniform(0, 0.8) * reach]
+        if robot == "irb120_track":
+            place[0] += rng.uniform(0, 2000)
         position = ", ".join(f"{value:.1f}" for value in place)
         size = rng.uniform(0.02, 0.2, 3) * reach
         shape = (
@@ -73,6 +79,9 @@ def cell(rng: np.random.Generator, robot: str) -> str:
             else f"box: [{', '.join(f'{value:.1f}' for value in size)}]"
         )
         things.append(f"  o{number}: {{{shape}, frame: {{position: [{position}]}}}}")
+    if robot == "irb120_track":
+        turned = f"box: [{rng.uniform(100, 600):.1f}, 60, 90], frame: {{position: [60, 0, 80]}}"
+        things.append(f"  part: {{{turned}, on: STN_1}}")
     clearance = rng.choice([1, 5, 20])
     return (
         "robots:\n  T_ROB1: {model: robot.yaml}\nthings:\n"

@@ -4,31 +4,74 @@ A part is a set of triangles, and its shape is their convex hull. A cut by a pla
 triangles, so that both halves still contain every point of the surface; the union of the hulls
 therefore covers the whole surface.
 
-The search for cuts uses the cells of a grid that are outside of the mesh and inside of its hull,
-each with its distance from the mesh. The cost of a part is the sum of the fourth powers of the
-distances of the cells in its hull, which is near the largest distance and yet smooth. The part
-whose best cut saves most is cut next.
+The search uses the cells of a grid that are outside of the mesh and inside of its hull, each with
+its distance from the mesh. The cost of a part is the sum of a high power of the distances of the
+cells in its hull, which is near the largest distance and yet smooth. The mesh is cut into more
+parts than wanted, always where a cut saves most; then the two parts whose common hull costs least
+are joined, until the number is right. At the end, a part is cut and two others are joined as long
+as that saves anything.
+
+Cuts are compared with supports in fixed directions instead of hulls, which are slow: a cell is in a
+hull if it is below the support in all of them. Only the best cuts get hulls.
 """
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rapidgen.collision.hulls import hull_triangles, hull_volume
-from rapidgen.collision.shapes import Array
+from rapidgen.collision.fit_grid import Grid, grid_of
+from rapidgen.collision.fit_measures import overestimate, underestimate
+from rapidgen.collision.hulls import hull_planes, hull_triangles
+from rapidgen.collision.shapes import Array, Indices
 
 PARTS = 8
-_OFFSETS = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
+_OFFSETS = np.linspace(0.05, 0.95, 13)
 """Places of cuts, as shares of a part's extent."""
-_SAVED = 1e-3
+_FACES = 4
+"""Directions of large faces of a part that cuts have, and faces of each that they go along."""
+_PARALLEL = 0.999
+"""Cosine of directions that count as one."""
+_TRIED = 6
+"""Cuts of which hulls are made."""
+_SURPLUS = 2.5
+"""Parts that a mesh is cut into, over those wanted."""
+_ROUNDS = 12
+"""Most attempts to cut a part and join others."""
+_SAVED = 1e-6
 """Least saved share of the whole hull's cost for a further cut."""
-_CELLS = 48
-"""Cells along the longest side of a mesh."""
-_POWER = 4
-_SAMPLES = 4000
-"""Points on the surface of a mesh, and of its parts."""
-_CHUNK = 400
+_SLACK = 0.7
+"""Cells by which hulls are enlarged in the search."""
+_EVENNESS, _PATIENCE = 0.01, 0.5
+"""Weights of the larger half's cost in the choice of a cut, usually and if several are needed."""
+_POWER = 8
+_RELEVANT = 0.15
+"""Cells that are nearer to the mesh than this share of the largest distance do not count."""
+_MOST_CELLS = 15_000
+_PLANES = 64
+
+
+def _directions() -> Array:
+    """Return the axes and diagonals of a cube, and evenly spread directions: (62, 3)."""
+    cube = np.array(
+        [
+            [x, y, z]
+            for x in (-1, 0, 1)
+            for y in (-1, 0, 1)
+            for z in (-1, 0, 1)
+            if (x, y, z) != (0, 0, 0)
+        ],
+        dtype=np.float64,
+    )
+    z = np.linspace(-0.97, 0.97, 36)
+    turn = np.arange(36) * np.pi * (3 - np.sqrt(5))
+    spread = np.stack([np.sqrt(1 - z**2) * np.cos(turn), np.sqrt(1 - z**2) * np.sin(turn), z], 1)
+    return np.concatenate([cube / np.linalg.norm(cube, axis=1)[:, None], spread])
+
+
+_WAYS = _directions()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -46,27 +89,44 @@ class Fit:
     under: float
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Part:
+    """Triangles of a part, and points (n, 3) of their surface for the search.
+
+    `corners` are those of the hull of the points, `cells` the indices of the cells in it, and
+    `cost` is their cost.
+    """
+
+    triangles: Array
+    points: Array
+    corners: Array
+    cells: Indices
+    cost: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Cut:
+    """A plane that cuts a part, and the estimated saving."""
+
+    normal: Array
+    offset: float
+    saved: float
+
+
 def fit_parts(triangles: Array, most: int = PARTS) -> Fit:
     """Return at most `most` convex parts that cover triangles (n, 3, 3).
 
     Raises ModuleNotFoundError without coal, ValueError for a mesh in one plane.
     """
-    if _volume(_thinned(triangles.reshape(-1, 3))) <= 0:
+    corners = triangles.reshape(-1, 3)
+    if _is_flat(corners):
         raise ValueError("all points lie in one plane")
-    whole = hull_triangles(triangles.reshape(-1, 3))[0]
-    grid = _grid_of(triangles)
-    outside = grid.outside
-    total = _cost(whole, outside)[0]
+    grid = grid_of(triangles)
+    whole = hull_triangles(corners)[0]
     parts = [triangles]
-    cuts = [_best_cut(triangles, outside)]
-    while len(parts) < most:
-        best = max(range(len(parts)), key=lambda i: cuts[i].saved)
-        if cuts[best].saved < _SAVED * total or total <= 0:
-            break
-        halves = _clip(parts[best], cuts[best].normal, cuts[best].offset)
-        parts[best : best + 1] = halves
-        cells = cuts[best].cells
-        cuts[best : best + 1] = [_best_cut(half, cells) for half in halves]
+    if most > 1:
+        search = _Search(grid, whole)
+        parts = [part.triangles for part in search.parts(triangles, grid.points, most)]
     hulls = tuple(_solid(part) for part in parts)
     return Fit(
         hulls,
@@ -76,145 +136,230 @@ def fit_parts(triangles: Array, most: int = PARTS) -> Fit:
     )
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Cut:
-    """The best cut of a part: saved cost, plane, and the cells (n, 4) in the part's hull."""
+class _Search:
+    """Search for parts with the cells that matter: in the hull, and not near the mesh."""
 
-    saved: float
-    normal: Array
-    offset: float
-    cells: Array
+    def __init__(self, grid: Grid, whole: Array) -> None:
+        _, normal, offset = hull_planes(whole)
+        # The points that stand for the surface are up to a cell inside of its hull.
+        self._slack = _SLACK * grid.size
+        cells = grid.outside[_below(grid.outside[:, :3], normal, offset + self._slack)]
+        top = float(cells[:, 3].max(initial=0.0))
+        cells = cells[cells[:, 3] > _RELEVANT * top]
+        if len(cells) > _MOST_CELLS:
+            cells = np.random.default_rng(1).choice(cells, _MOST_CELLS, replace=False)
+        self._places = cells[:, :3]
+        self._costs = (cells[:, 3] / max(top, 1e-12)) ** _POWER
+        self._heights = self._places @ _WAYS.T
+
+    def parts(self, triangles: Array, points: Array, most: int) -> list[_Part]:
+        """Return at most `most` parts of a mesh."""
+        whole = self._part(triangles, points, points, np.arange(len(self._places)))
+        parts = self._joined(self._cut_up(whole, round(_SURPLUS * most)), most)
+        for _ in range(_ROUNDS):
+            worst = max(parts, key=lambda part: part.cost)
+            others = [part for part in parts if part is not worst]
+            # A round hole needs several cuts before one saves anything.
+            tried = min(
+                (
+                    self._joined([*others, *self._cut_up(worst, count, is_patient=count > 2)], most)
+                    for count in (2, 5)
+                ),
+                key=_total,
+            )
+            if _total(tried) >= _total(parts) * (1 - 1e-2):
+                break
+            parts = tried
+        return parts
+
+    def _part(self, triangles: Array, points: Array, outer: Array, among: Indices) -> _Part:
+        """Return a part; `outer` are points with its hull, `among` cells that may be in it."""
+        support = (outer @ _WAYS.T).max(axis=0) + self._slack
+        heights = self._heights if len(among) == len(self._places) else self._heights[among]
+        near = among[(heights <= support).all(axis=1)]
+        if _is_flat(outer):
+            # The hull of a flat ring covers its hole, too.
+            outer = _thickened(outer, self._slack)
+        corners, normal, offset = hull_planes(outer)
+        if len(near):
+            near = near[_below(self._places[near], normal, offset + self._slack)]
+        return _Part(triangles, points, corners, near, float(self._costs[near].sum()))
+
+    def _cut_up(self, whole: _Part, count: int, *, is_patient: bool = False) -> list[_Part]:
+        """Return at most `count` parts, cut where it saves most.
+
+        `is_patient`: cuts that save nothing are made, too.
+        """
+        evenness = _PATIENCE if is_patient else _EVENNESS
+        parts = [whole]
+        halves = [self._halves(whole, evenness)]
+        while len(parts) < count:
+            saved = [
+                _score((part,), evenness) - _score(cut, evenness) if cut is not None else -np.inf
+                for part, cut in zip(parts, halves, strict=True)
+            ]
+            best = int(np.argmax(saved))
+            chosen = halves[best]
+            if chosen is None or (
+                parts[best].cost - _total(chosen) <= _SAVED * whole.cost and not is_patient
+            ):
+                break
+            parts[best : best + 1] = chosen
+            halves[best : best + 1] = [self._halves(part, evenness) for part in chosen]
+        return parts
+
+    def _joined(self, parts: Sequence[_Part], most: int) -> list[_Part]:
+        """Return at most `most` parts: those whose common hull costs least are joined."""
+        left, number = dict(enumerate(parts)), len(parts)
+        known: dict[tuple[int, int], _Part] = {}
+        everything = np.arange(len(self._places))
+        limit = _SAVED * _total(parts)
+        while len(left) > 1:
+            for one, other in combinations(left, 2):
+                if (one, other) not in known:
+                    both = left[one], left[other]
+                    known[one, other] = self._part(
+                        np.concatenate([part.triangles for part in both]),
+                        np.concatenate([part.points for part in both]),
+                        np.concatenate([part.corners for part in both]),
+                        everything,
+                    )
+            dearer, one, other = min(
+                (known[pair].cost - left[pair[0]].cost - left[pair[1]].cost, *pair)
+                for pair in combinations(left, 2)
+            )
+            if len(left) <= most and dearer > limit:
+                break
+            made = known[one, other]
+            del left[one], left[other]
+            left[number] = made
+            number += 1
+        return list(left.values())
+
+    def _halves(self, part: _Part, evenness: float) -> tuple[_Part, _Part] | None:
+        """Return the two parts of the best cut; None if there is no cut."""
+        best: tuple[_Part, _Part] | None = None
+        for cut in sorted(self._cuts(part, evenness), key=lambda cut: -cut.saved)[:_TRIED]:
+            sides = _clip(part.triangles, cut.normal, cut.offset)
+            along = part.points @ cut.normal
+            points = part.points[along <= cut.offset], part.points[along >= cut.offset]
+            if min(map(len, (*sides, *points))) == 0:
+                continue
+            low, high = (
+                self._part(side, own, np.concatenate([own, _extremes(side)]), part.cells)
+                for side, own in zip(sides, points, strict=True)
+            )
+            if best is None or _score((low, high), evenness) < _score(best, evenness):
+                best = low, high
+        return best
+
+    def _cuts(self, part: _Part, evenness: float) -> Iterator[_Cut]:
+        """Yield cuts with their savings as supports tell them."""
+        if part.cost <= 0 or len(part.points) < 8:
+            return
+        reach = part.points @ _WAYS.T + self._slack
+        heights, costs = self._heights[part.cells], self._costs[part.cells]
+        for normal, offsets in _planes(part):
+            along = part.points @ normal
+            order = np.argsort(along)
+            counts = np.searchsorted(along[order], offsets)
+            usable = (counts > 0) & (counts < len(along))
+            up = np.maximum.accumulate(reach[order], axis=0)
+            down = np.maximum.accumulate(reach[order][::-1], axis=0)[::-1]
+            for offset, count in zip(
+                offsets[usable].tolist(), counts[usable].tolist(), strict=True
+            ):
+                sides = [
+                    float(costs[(heights <= support).all(axis=1)].sum())
+                    for support in (up[count - 1], down[count])
+                ]
+                yield _Cut(normal, offset, part.cost - sum(sides) - evenness * max(sides))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Grid:
-    """Cells of a mesh: those of its `surface` and those outside, `free`.
+def _score(parts: Sequence[_Part], evenness: float) -> float:
+    """Return the total cost, and a share of the largest one: even cuts come before others."""
+    return _total(parts) + evenness * max(part.cost for part in parts)
 
-    `outside` (n, 4) are free cells off the surface: x, y, z and the distance from the mesh.
+
+def _extremes(triangles: Array) -> Array:
+    """Return the farthest corner of triangles in each direction.
+
+    A thin slice of a mesh has few points of the grid, or none at its ends.
     """
-
-    low: Array
-    size: float
-    surface: NDArray[np.bool_]
-    free: NDArray[np.bool_]
-    outside: Array
-
-    def at(self, points: Array) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        """Return which points (n, 3) are in surface cells, and which in free ones."""
-        index = np.floor((points - self.low) / self.size).astype(np.intp) + 1
-        index = np.clip(index, 0, np.array(self.free.shape) - 1)
-        return self.surface[tuple(index.T)], self.free[tuple(index.T)]
-
-
-def _grid_of(triangles: Array) -> _Grid:
-    """Return the cells of a mesh.
-
-    The outside is flooded from the border of the grid; distances are counted in layers of cells.
-    """
-    points = np.concatenate([_samples(triangles, 50 * _SAMPLES), triangles.reshape(-1, 3)])
-    low, high = points.min(axis=0), points.max(axis=0)
-    size = float((high - low).max()) / _CELLS
-    shape = np.floor((high - low) / size).astype(np.intp) + 3
-    surface = np.zeros(shape, dtype=np.bool_)
-    surface[tuple((np.floor((points - low) / size).astype(np.intp) + 1).T)] = True
-    free = np.zeros_like(surface)
-    free[0], free[-1] = True, True
-    free[:, 0] = free[:, -1] = free[:, :, 0] = free[:, :, -1] = True
-    count = 0
-    while int(free.sum()) != count:
-        count = int(free.sum())
-        free = _grown(free, corners=False) & ~surface
-    layers = np.zeros(shape)
-    reached = surface
-    while not (reached | ~free).all():
-        grown = _grown(reached, corners=True)
-        layers += free & ~reached
-        reached = grown
-    index = np.argwhere(free & (layers > 1))
-    places = low + (index - 0.5) * size
-    outside = np.column_stack([places, (layers[tuple(index.T)] - 0.5) * size])
-    return _Grid(low, size, surface, free, outside)
-
-
-def _grown(cells: NDArray[np.bool_], *, corners: bool) -> NDArray[np.bool_]:
-    """Return cells and their neighbours, across faces or across corners too."""
-    result: NDArray[np.bool_] = cells.copy()
-    for axis in range(3):
-        base = result.copy() if corners else cells
-        for low, high in ((slice(1, None), slice(None, -1)), (slice(None, -1), slice(1, None))):
-            to, source = [slice(None)] * 3, [slice(None)] * 3
-            to[axis], source[axis] = low, high
-            result[tuple(to)] |= base[tuple(source)]
+    corners = triangles.reshape(-1, 3)
+    result: Array = corners[(corners @ _WAYS.T).argmax(axis=0)]
     return result
 
 
-def _cost(points: Array, cells: Array) -> tuple[float, Array]:
-    """Return the cost of the hull of points, and the cells in it."""
-    if not len(cells) or _volume(points) <= 0:
-        return 0.0, cells[:0]
-    corners, index = hull_triangles(points)
-    a, b, c = np.moveaxis(corners[index], 1, 0)
-    normal = np.cross(b - a, c - a)
-    offset = np.einsum("ni,ni->n", normal, a)
-    inside = (cells[:, :3] @ normal.T <= offset).all(axis=1)
-    own = cells[inside]
-    return float((own[:, 3] ** _POWER).sum()), own
+def _total(parts: Sequence[_Part]) -> float:
+    return sum(part.cost for part in parts)
+
+
+def _planes(part: _Part) -> Iterator[tuple[Array, Array]]:
+    """Yield normals and offsets of cuts: along axes, principal axes and large faces."""
+    principal = np.linalg.svd(part.points - part.points.mean(axis=0), full_matrices=False)[2]
+    edges = part.triangles[:, 1:] - part.triangles[:, :1]
+    across = np.cross(edges[:, 0], edges[:, 1])
+    area = np.linalg.norm(across, axis=1)
+    faces = across[area > 0] / area[area > 0, None]
+    area, places = area[area > 0], part.triangles[area > 0, 0]
+    # Opposite faces have one direction.
+    faces *= np.where(faces[:, [2]] + 1e-3 * faces[:, [1]] + 1e-6 * faces[:, [0]] < 0, -1.0, 1.0)
+    kinds, which = np.unique(np.round(faces, 2), axis=0, return_inverse=True)
+    sizes = np.bincount(which.ravel(), area, len(kinds))
+    large = [kinds[i] / np.linalg.norm(kinds[i]) for i in np.argsort(-sizes)[:_FACES]]
+    normals: list[Array] = []
+    for normal in (*np.eye(3), *principal, *large):
+        if any(abs(float(normal @ other)) > _PARALLEL for other in normals):
+            continue
+        normals.append(normal)
+        along = part.points @ normal
+        low, high = float(along.min()), float(along.max())
+        parallel = np.abs(faces @ normal) > _PARALLEL
+        levels, index = np.unique(
+            np.round((places[parallel] @ normal - low) / max(high - low, 1e-12), 2),
+            return_inverse=True,
+        )
+        own = np.bincount(index.ravel(), area[parallel], len(levels))
+        shares = levels[np.argsort(-own)[:_FACES]]
+        shares = np.concatenate([_OFFSETS, shares[(shares > 0.01) & (shares < 0.99)]])
+        yield normal, low + shares * (high - low)
+
+
+def _below(places: Array, normal: Array, offset: Array) -> NDArray[np.bool_]:
+    """Return which places (m, 3) are below all planes."""
+    result = np.ones(len(places), dtype=np.bool_)
+    for low in range(0, len(normal), _PLANES):
+        left = np.flatnonzero(result)
+        rows = slice(low, low + _PLANES)
+        result[left] = (places[left] @ normal[rows].T <= offset[rows]).all(axis=1)
+    return result
+
+
+def _is_flat(points: Array) -> bool:
+    """True if points lie in one plane."""
+    if len(points) < 4:
+        return True
+    centred = points - points.mean(axis=0)
+    spread = np.linalg.eigvalsh(centred.T @ centred)
+    return bool(spread[0] <= 1e-12 * spread[2])
 
 
 def _solid(triangles: Array) -> Array:
     """Return the hull's vertices; a flat part gets a thickness of a thousandth of its size."""
     points = triangles.reshape(-1, 3)
-    if _volume(points) > 0:
-        return hull_triangles(points)[0]
-    middle = points.mean(axis=0)
-    _, spread, axes = np.linalg.svd(points - middle, full_matrices=False)
-    thick = max(float(spread[0]) / np.sqrt(len(points)) * 1e-3, 1e-6)
-    ways = axes[spread < spread[0] * 1e-6] if len(spread) == 3 else axes[2:]
-    for way in ways:
-        points = np.concatenate([points + thick * way, points - thick * way])
+    if _is_flat(points):
+        points = _thickened(points, max(1e-3 * float(np.ptp(points, axis=0).max()), 1e-6))
     return hull_triangles(points)[0]
 
 
-def _volume(points: Array) -> float:
-    """Return the volume of the hull of points; 0 if they lie in one plane."""
+def _thickened(points: Array, thick: float) -> Array:
+    """Return points of one plane or line, moved to both sides of it."""
     centred = points - points.mean(axis=0)
-    spread = np.linalg.svd(centred, compute_uv=False) if len(points) > 3 else np.zeros(3)
-    if len(spread) < 3 or spread[2] <= 1e-6 * spread[0]:
-        return 0.0
-    return hull_volume(points)
-
-
-def _thinned(points: Array) -> Array:
-    """Return one point for each cell of a grid, for the search for cuts."""
-    low = points.min(axis=0)
-    size = float((points.max(axis=0) - low).max()) / (2 * _CELLS)
-    if size <= 0:
-        return points[:1]
-    cells = np.floor((points - low) / size).astype(np.int64)
-    _, index = np.unique(cells, axis=0, return_index=True)
-    return points[index]
-
-
-def _best_cut(triangles: Array, cells: Array) -> _Cut:
-    """Return the best cut of a part among some; `cells` are those of its parent."""
-    points = _thinned(triangles.reshape(-1, 3))
-    whole, own = _cost(points, cells)
-    best = _Cut(0.0, np.array([1.0, 0.0, 0.0]), 0.0, own)
-    if whole <= 0:
-        return best
-    principal = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)[2]
-    for normal in (*np.eye(3), *principal):
-        along = triangles @ normal
-        low, high = float(along.min()), float(along.max())
-        for share in _OFFSETS:
-            offset = low + share * (high - low)
-            first, second = _clip(triangles, normal, offset, along)
-            if not len(first) or not len(second):
-                continue
-            halves = sum(_cost(_thinned(h.reshape(-1, 3)), own)[0] for h in (first, second))
-            if whole - halves > best.saved:
-                best = _Cut(whole - halves, normal, offset, own)
-    return best
+    spread, axes = np.linalg.eigh(centred.T @ centred)
+    for way in axes.T[spread <= 1e-12 * max(spread[2], 1e-30)]:
+        points = np.concatenate([points + thick * way, points - thick * way])
+    return points
 
 
 def _clip(
@@ -242,90 +387,3 @@ def _clip(
         sides[0] = np.concatenate([sides[0], tips[lone_is_negative], rests[~twice]])
         sides[1] = np.concatenate([sides[1], tips[~lone_is_negative], rests[twice]])
     return sides[0], sides[1]
-
-
-def _samples(triangles: Array, count: int) -> Array:
-    """Return points on a surface, evenly by area, and all its corners up to `count`."""
-    rng = np.random.default_rng(1)
-    edges = triangles[:, 1:] - triangles[:, :1]
-    area = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)
-    if not area.sum():
-        return triangles[:, 0]
-    chosen = rng.choice(len(triangles), count, p=area / area.sum())
-    u, v = rng.random((2, count))
-    flip = u + v > 1
-    u, v = np.where(flip, 1 - u, u), np.where(flip, 1 - v, v)
-    result: Array = (
-        triangles[chosen, 0] + u[:, None] * edges[chosen, 0] + v[:, None] * edges[chosen, 1]
-    )
-    return result
-
-
-def overestimate(triangles: Array, hulls: tuple[Array, ...], grid: _Grid) -> float:
-    """Return the largest distance of the hulls' surface from the mesh, outside of the mesh."""
-    faces = []
-    for vertices in hulls:
-        points, index = hull_triangles(vertices)
-        faces.append(points[index])
-    points = np.concatenate([np.concatenate(hulls), _samples(np.concatenate(faces), _SAMPLES // 2)])
-    surface = np.concatenate(
-        [
-            _samples(triangles, 4 * _SAMPLES),
-            triangles.reshape(-1, 3)[:: max(1, len(triangles) // _SAMPLES)],
-        ]
-    )
-    far = np.concatenate(
-        [_nearest(points[i : i + _CHUNK], surface) for i in range(0, len(points), _CHUNK)]
-    )
-    # Only points outside count. The winding number is costly, so that only points in cells of the
-    # surface need it.
-    on_surface, free = grid.at(points)
-    for index in np.argsort(-far):
-        if on_surface[index]:
-            if abs(_winding(points[index], triangles)) < 0.5:
-                return float(far[index])
-        elif free[index]:
-            return float(far[index])
-    return 0.0
-
-
-def _nearest(points: Array, surface: Array) -> Array:
-    square = (points**2).sum(axis=1)[:, None] + (surface**2).sum(axis=1) - 2 * points @ surface.T
-    result: Array = np.sqrt(np.maximum(square.min(axis=1), 0.0))
-    return result
-
-
-def _winding(point: Array, triangles: Array) -> float:
-    """Return the winding number of a mesh about a point [van Oosterom & Strackee 1983]."""
-    a, b, c = np.moveaxis(triangles - point, 1, 0)
-    la, lb, lc = (np.linalg.norm(v, axis=1) for v in (a, b, c))
-    volume = np.einsum("ni,ni->n", a, np.cross(b, c))
-    dots = (
-        la * lb * lc
-        + np.einsum("ni,ni->n", a, b) * lc
-        + np.einsum("ni,ni->n", b, c) * la
-        + np.einsum("ni,ni->n", c, a) * lb
-    )
-    return float(np.arctan2(volume, dots).sum() / (2 * np.pi))
-
-
-def underestimate(triangles: Array, hulls: tuple[Array, ...]) -> float:
-    """Return the largest distance of points of the mesh from the union of convex hulls."""
-    points = np.concatenate([_samples(triangles, _SAMPLES), triangles.reshape(-1, 3)])
-    worst = np.full(len(points), np.inf)
-    for vertices in hulls:
-        corners, index = hull_triangles(vertices)
-        a, b, c = np.moveaxis(corners[index], 1, 0)
-        normal = np.cross(b - a, c - a)
-        size = np.linalg.norm(normal, axis=1)
-        keep = size > 0
-        normal = normal[keep] / size[keep, None]
-        offset = np.einsum("ni,ni->n", normal, a[keep])
-        for low in range(0, len(points), 5000):
-            rows = slice(low, low + 5000)
-            out = (points[rows] @ normal.T - offset).max(axis=1)
-            worst[rows] = np.minimum(worst[rows], out)
-    scale = float(np.ptp(triangles.reshape(-1, 3), axis=0).max())
-    deepest = float(worst.max())
-    # Rounding of the hulls' planes.
-    return deepest if deepest > 1e-6 * scale else 0.0

@@ -125,6 +125,14 @@ def hull_triangles(points: Array) -> tuple[Array, Indices]:
     return vertices, triangles
 
 
-def hull_volume(points: Array) -> float:
-    """Return the volume of the convex hull of points, which must not lie in one plane."""
-    return float(_hull(points).computeVolume())
+def hull_planes(points: Array) -> tuple[Array, Array, Array]:
+    """Return vertices (n, 3), unit normals (m, 3) and offsets (m,) of the convex hull of points.
+
+    n . x <= offset is true for all points.
+    """
+    vertices, triangles = hull_triangles(points)
+    a, b, c = np.moveaxis(vertices[triangles], 1, 0)
+    normal = np.cross(b - a, c - a)
+    size = np.linalg.norm(normal, axis=1)
+    normal = normal[size > 0] / size[size > 0, None]
+    return vertices, normal, np.einsum("ni,ni->n", normal, a[size > 0])

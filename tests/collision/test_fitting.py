@@ -44,6 +44,27 @@ def test_parts_of_a_bracket_cover_it_closely(fitted):
     assert 2 <= len(fitted.parts) <= 8
 
 
+@pytest.mark.long
+def test_parts_leave_a_blind_hole_open():
+    """No single cut of a round hole saves anything."""
+    turn = np.linspace(0, 2 * np.pi, 25)
+    inner, outer = (r * np.stack([np.cos(turn), np.sin(turn), 0 * turn], 1) for r in (0.04, 0.1))
+    up, down = np.array([0, 0, 0.03]), np.array([0, 0, -0.02])
+    middle = np.zeros_like(inner)
+    strips = [
+        (middle, inner), (inner, inner + up), (inner + up, outer + up), (outer + up, outer + down),
+        (outer + down, middle + down),
+    ]  # fmt: skip
+    triangles = []
+    for low, high in strips:
+        for i in range(24):
+            triangles += [(low[i], low[i + 1], high[i + 1]), (low[i], high[i + 1], high[i])]
+    fitted = fit_parts(np.array(triangles)[:, ::-1])
+    assert fitted.hull == pytest.approx(0.03, abs=0.001)
+    assert fitted.over <= fitted.hull / 2
+    assert fitted.under == 0.0
+
+
 def test_one_part_is_the_hull(bracket):
     one = fit_parts(bracket, most=1)
     assert len(one.parts) == 1
