@@ -1,6 +1,7 @@
 """How far convex parts are outside of a mesh, and the mesh outside of the parts."""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rapidgen.collision.fit_grid import Grid
 from rapidgen.collision.hulls import hull_planes, hull_triangles
@@ -9,6 +10,7 @@ from rapidgen.collision.shapes import Array
 _SAMPLES = 4000
 """Points on the surface of a mesh, and of its parts."""
 _CHUNK = 400
+_PLANES = 64
 
 
 def _samples(triangles: Array, count: int) -> Array:
@@ -29,11 +31,18 @@ def _samples(triangles: Array, count: int) -> Array:
 
 
 def overestimate(triangles: Array, hulls: tuple[Array, ...], grid: Grid) -> float:
-    """Return the largest distance of the hulls' surface from the mesh, outside of the mesh."""
+    """Return the largest distance of a point of the hulls from the mesh, outside of the mesh.
+
+    Points are those of the hulls' surfaces, and the cells of the grid in the hulls: the middle of a
+    cavity is farther from the mesh than its mouth.
+    """
     faces = []
+    covered = np.zeros(len(grid.outside), dtype=np.bool_)
     for vertices in hulls:
         points, index = hull_triangles(vertices)
         faces.append(points[index])
+        _, normal, offset = hull_planes(vertices)
+        covered |= is_below(grid.outside[:, :3], normal, offset)
     points = np.concatenate([np.concatenate(hulls), _samples(np.concatenate(faces), _SAMPLES // 2)])
     surface = np.concatenate(
         [
@@ -44,6 +53,10 @@ def overestimate(triangles: Array, hulls: tuple[Array, ...], grid: Grid) -> floa
     far = np.concatenate(
         [_nearest(points[i : i + _CHUNK], surface) for i in range(0, len(points), _CHUNK)]
     )
+    cells = grid.outside[covered]
+    points = np.concatenate([points, cells[:, :3]])
+    # From the middle of a cell to that of another one, and from there to the surface.
+    far = np.concatenate([far, cells[:, 3] + 1.4 * grid.size])
     # Distances from samples of the surface are too large, and the winding number is costly: both
     # are corrected from the largest one down. Only points outside count, and only points in cells
     # of the surface need the winding number to tell.
@@ -101,6 +114,16 @@ def _winding(point: Array, triangles: Array) -> float:
         + np.einsum("ni,ni->n", c, a) * lb
     )
     return float(np.arctan2(volume, dots).sum() / (2 * np.pi))
+
+
+def is_below(places: Array, normal: Array, offset: Array) -> NDArray[np.bool_]:
+    """Return which places (m, 3) are below all planes."""
+    result = np.ones(len(places), dtype=np.bool_)
+    for low in range(0, len(normal), _PLANES):
+        left = np.flatnonzero(result)
+        rows = slice(low, low + _PLANES)
+        result[left] = (places[left] @ normal[rows].T <= offset[rows]).all(axis=1)
+    return result
 
 
 def underestimate(triangles: Array, hulls: tuple[Array, ...]) -> float:

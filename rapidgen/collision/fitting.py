@@ -20,10 +20,9 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rapidgen.collision.fit_grid import Grid, grid_of
-from rapidgen.collision.fit_measures import overestimate, underestimate
+from rapidgen.collision.fit_measures import is_below, overestimate, underestimate
 from rapidgen.collision.hulls import hull_planes, hull_triangles
 from rapidgen.collision.shapes import Array, Indices
 
@@ -40,17 +39,20 @@ _SURPLUS = 2.5
 """Parts that a mesh is cut into, over those wanted."""
 _ROUNDS = 12
 """Most attempts to cut a part and join others."""
+_LEAST = 0.05
+"""Least share of the cost that an attempt saves."""
 _SAVED = 1e-6
 """Least saved share of the whole hull's cost for a further cut."""
 _SLACK = 0.7
 """Cells by which hulls are enlarged in the search."""
-_EVENNESS, _PATIENCE = 0.01, 0.5
+_EVENNESS, _STEPWISE = 0.01, 0.5
 """Weights of the larger half's cost in the choice of a cut, usually and if several are needed."""
 _POWER = 8
+_GOOD = 0.25**_POWER
+"""Cost of a cell, over the largest one of the hull, that is not worth an attempt."""
 _RELEVANT = 0.15
 """Cells that are nearer to the mesh than this share of the largest distance do not count."""
 _MOST_CELLS = 15_000
-_PLANES = 64
 
 
 def _directions() -> Array:
@@ -143,7 +145,7 @@ class _Search:
         _, normal, offset = hull_planes(whole)
         # The points that stand for the surface are up to a cell inside of its hull.
         self._slack = _SLACK * grid.size
-        cells = grid.outside[_below(grid.outside[:, :3], normal, offset + self._slack)]
+        cells = grid.outside[is_below(grid.outside[:, :3], normal, offset + self._slack)]
         top = float(cells[:, 3].max(initial=0.0))
         cells = cells[cells[:, 3] > _RELEVANT * top]
         if len(cells) > _MOST_CELLS:
@@ -157,20 +159,28 @@ class _Search:
         whole = self._part(triangles, points, points, np.arange(len(self._places)))
         parts = self._joined(self._cut_up(whole, round(_SURPLUS * most)), most)
         for _ in range(_ROUNDS):
-            worst = max(parts, key=lambda part: part.cost)
-            others = [part for part in parts if part is not worst]
-            # A round hole needs several cuts before one saves anything.
-            tried = min(
-                (
-                    self._joined([*others, *self._cut_up(worst, count, is_patient=count > 2)], most)
-                    for count in (2, 5)
-                ),
-                key=_total,
-            )
-            if _total(tried) >= _total(parts) * (1 - 1e-2):
+            if max(float(self._costs[part.cells].max(initial=0.0)) for part in parts) < _GOOD:
+                break
+            tried = self._improved(parts, most)
+            if tried is None:
                 break
             parts = tried
         return parts
+
+    def _improved(self, parts: list[_Part], most: int) -> list[_Part] | None:
+        """Cut the worst part and join others; None if that saves nothing."""
+        worst = max(parts, key=lambda part: part.cost)
+        others = [part for part in parts if part is not worst]
+        limit = _total(parts) * (1 - _LEAST)
+
+        def joined(made: list[_Part]) -> list[_Part]:
+            return self._joined([*others, *made], most)
+
+        result = joined(self._cut_up(worst, 2))
+        if _total(result) > limit:
+            made = [*self._sectors(worst), self._cut_up(worst, most, is_stepwise=True)]
+            result = min(map(joined, made), key=_total)
+        return result if _total(result) <= limit else None
 
     def _part(self, triangles: Array, points: Array, outer: Array, among: Indices) -> _Part:
         """Return a part; `outer` are points with its hull, `among` cells that may be in it."""
@@ -182,15 +192,15 @@ class _Search:
             outer = _thickened(outer, self._slack)
         corners, normal, offset = hull_planes(outer)
         if len(near):
-            near = near[_below(self._places[near], normal, offset + self._slack)]
+            near = near[is_below(self._places[near], normal, offset + self._slack)]
         return _Part(triangles, points, corners, near, float(self._costs[near].sum()))
 
-    def _cut_up(self, whole: _Part, count: int, *, is_patient: bool = False) -> list[_Part]:
+    def _cut_up(self, whole: _Part, count: int, *, is_stepwise: bool = False) -> list[_Part]:
         """Return at most `count` parts, cut where it saves most.
 
-        `is_patient`: cuts that save nothing are made, too.
+        `is_stepwise`: cuts that save nothing are made, too.
         """
-        evenness = _PATIENCE if is_patient else _EVENNESS
+        evenness = _STEPWISE if is_stepwise else _EVENNESS
         parts = [whole]
         halves = [self._halves(whole, evenness)]
         while len(parts) < count:
@@ -201,12 +211,27 @@ class _Search:
             best = int(np.argmax(saved))
             chosen = halves[best]
             if chosen is None or (
-                parts[best].cost - _total(chosen) <= _SAVED * whole.cost and not is_patient
+                parts[best].cost - _total(chosen) <= _SAVED * whole.cost and not is_stepwise
             ):
                 break
             parts[best : best + 1] = chosen
             halves[best : best + 1] = [self._halves(part, evenness) for part in chosen]
         return parts
+
+    def _sectors(self, part: _Part) -> Iterator[list[_Part]]:
+        """Yield four sectors of a part about axes through what it covers.
+
+        A bore through a part needs all four cuts before they save anything.
+        """
+        middle = np.average(self._places[part.cells], axis=0, weights=self._costs[part.cells])
+        principal = np.linalg.svd(part.points - part.points.mean(axis=0), full_matrices=False)[2]
+        for axes in (np.eye(3), principal):
+            for first, second in combinations(axes, 2):
+                made = [part]
+                for normal in (first, second):
+                    cut = _Cut(normal, float(normal @ middle), 0.0)
+                    made = [half for one in made for half in self._divided(one, cut) or (one,)]
+                yield made
 
     def _joined(self, parts: Sequence[_Part], most: int) -> list[_Part]:
         """Return at most `most` parts: those whose common hull costs least are joined."""
@@ -240,18 +265,26 @@ class _Search:
         """Return the two parts of the best cut; None if there is no cut."""
         best: tuple[_Part, _Part] | None = None
         for cut in sorted(self._cuts(part, evenness), key=lambda cut: -cut.saved)[:_TRIED]:
-            sides = _clip(part.triangles, cut.normal, cut.offset)
-            along = part.points @ cut.normal
-            points = part.points[along <= cut.offset], part.points[along >= cut.offset]
-            if min(map(len, (*sides, *points))) == 0:
+            made = self._divided(part, cut)
+            if made is None:
                 continue
-            low, high = (
-                self._part(side, own, np.concatenate([own, _extremes(side)]), part.cells)
-                for side, own in zip(sides, points, strict=True)
-            )
+            low, high = made
             if best is None or _score((low, high), evenness) < _score(best, evenness):
                 best = low, high
         return best
+
+    def _divided(self, part: _Part, cut: _Cut) -> tuple[_Part, _Part] | None:
+        """Return both sides of a cut; None if one is empty."""
+        sides = _clip(part.triangles, cut.normal, cut.offset)
+        along = part.points @ cut.normal
+        points = part.points[along <= cut.offset], part.points[along >= cut.offset]
+        if min(map(len, (*sides, *points))) == 0:
+            return None
+        low, high = (
+            self._part(side, own, np.concatenate([own, _extremes(side)]), part.cells)
+            for side, own in zip(sides, points, strict=True)
+        )
+        return low, high
 
     def _cuts(self, part: _Part, evenness: float) -> Iterator[_Cut]:
         """Yield cuts with their savings as supports tell them."""
@@ -324,16 +357,6 @@ def _planes(part: _Part) -> Iterator[tuple[Array, Array]]:
         shares = levels[np.argsort(-own)[:_FACES]]
         shares = np.concatenate([_OFFSETS, shares[(shares > 0.01) & (shares < 0.99)]])
         yield normal, low + shares * (high - low)
-
-
-def _below(places: Array, normal: Array, offset: Array) -> NDArray[np.bool_]:
-    """Return which places (m, 3) are below all planes."""
-    result = np.ones(len(places), dtype=np.bool_)
-    for low in range(0, len(normal), _PLANES):
-        left = np.flatnonzero(result)
-        rows = slice(low, low + _PLANES)
-        result[left] = (places[left] @ normal[rows].T <= offset[rows]).all(axis=1)
-    return result
 
 
 def _is_flat(points: Array) -> bool:
