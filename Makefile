@@ -9,7 +9,7 @@ export TIMEFORMAT = %U s of CPU, %R s
 # Where it is set, each of the hundreds of processes of a test run compiles all modules that it imports.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: ros-tests demo environment lock test test-long lint types import-contract unit stall-test pause-test wheel page driver-soak site release-lint changelog check diagrams interop campaigns clean
+.PHONY: ros-tests demo environment release lock test test-long lint types import-contract unit stall-test pause-test wheel page driver-soak site release-lint changelog check diagrams interop campaigns clean
 
 # Needs rapidgen and its page only, which come with a line every few seconds; `make test` adds the rest. The robot moves
 # in the page until Ctrl-C, or for 30 s where there is no terminal.
@@ -81,7 +81,7 @@ wheel: $(STAMP) $(PAGE)
 	$(BIN)/python -m build --wheel --no-isolation --outdir $(WHEEL)/dist . >$(WHEEL)/build.log 2>&1 || (cat $(WHEEL)/build.log; false)
 	$(BIN)/uv venv --quiet --python $(BIN)/python $(WHEEL)/env
 	$(BIN)/uv pip install --quiet --python $(WHEEL)/env/bin/python --constraint $(LOCK) $(WHEEL)/dist/*.whl
-	cd $(WHEEL) && time env/bin/rapidgen demo --output demo
+	cd $(WHEEL) && time env/bin/rapidgen demo --no-view --output demo
 	cd $(WHEEL) && env/bin/python -c 'from rapidgen.viewer.plotting import ASSETS; assert (ASSETS / "page.js").is_file(), ASSETS'
 
 # The generated driver for one simulated hour; `make driver-day` is the long form.
@@ -94,9 +94,19 @@ site: $(STAMP)
 	time $(BIN)/python -m sphinx --fail-on-warning --quiet -d build/site-pages docs build/site
 	$(BIN)/python -m tests.docs.findable build/site
 
-# Workflows, image and changelog: what only a release uses. `.ci/release` makes one in dist/.
+# Workflows, image and changelog: what only a release uses.
 release-lint: $(STAMP)
 	.ci/release --lint
+
+# All files of a release in dist/; VERSION=X.Y.Z writes the version and the date first.
+release: $(STAMP) $(PAGE)
+	.ci/release $(VERSION)
+
+# The wheel in an empty environment of each Python, with the newest and the lowest versions of its dependencies.
+PYTHONS ?= 3.10 3.11 3.12 3.13 3.14
+smoke: wheel ## 5 min: the wheel on every Python that is installed, with lowest and newest dependencies
+	for python in $(PYTHONS); do for versions in highest lowest-direct; do \
+		.ci/smoke $(WHEEL)/dist/*.whl $$python $$versions || exit 1; done; done
 
 changelog: $(STAMP)
 	$(BIN)/towncrier build --yes --version $(VERSION)
