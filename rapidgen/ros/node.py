@@ -80,6 +80,8 @@ else:
 
 T = TypeVar("T")
 _QOS = QoSProfile(depth=10)
+CLOCK_PERIOD = 0.02
+"""s of the controller's time between two messages of /clock: timers of other nodes wait for it."""
 _KEPT = 10
 """s for which a goal's result is available."""
 _LOOK = 0.2
@@ -129,6 +131,12 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
             return TransitionCallbackReturn.FAILURE
         if not ARE_THERE:
             self.get_logger().info(MISSING)
+        if parameters.publish_clock and config.state_period > CLOCK_PERIOD:
+            rate, least = 1 / config.state_period, 1 / CLOCK_PERIOD
+            self.get_logger().warning(
+                f"/clock has the {rate:g} Hz of the states: --set state.rate={least:g} for driver "
+                "and node"
+            )
         several = len(config.groups) > 1
         for group, make in zip(config.groups, makers, strict=True):
             space = f"{group.name}/" if several else ""

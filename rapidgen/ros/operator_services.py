@@ -7,6 +7,7 @@ refuses all of them.
 """
 
 import asyncio
+import math
 from collections.abc import AsyncIterator, Callable, Coroutine
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
@@ -28,7 +29,14 @@ if TYPE_CHECKING:
 LOG_PERIOD = 1.0
 """s between two readings of the event log; a controller answers 20 requests in a second."""
 GUARDED = frozenset(
-    {"motors_on", "start_program", "pp_to_main", "set_speed_ratio", "write_rapid_symbol"}
+    {
+        "motors_on",
+        "start_program",
+        "pp_to_main",
+        "set_speed_ratio",
+        "write_rapid_symbol",
+        "write_controller_signal",
+    }
 )
 """Services that need permission, because the robot may move or move otherwise afterwards."""
 _NOT_ON = {
@@ -128,6 +136,24 @@ class OperatorServices:
                 raise NotReady.because("RG621", "a goal is executed", "wait for its end")
             await controller.set_symbol(_checked(path), literal)
             return await controller.symbol_text(path)
+
+    async def read_signal(self, name: str) -> float:
+        """Return a signal of the controller, by its name or as NETWORK/DEVICE/NAME.
+
+        Raises RobotError.
+        """
+        async with self._connected() as controller:
+            return float((await controller.signal(name)).value)
+
+    async def write_signal(self, name: str, value: float) -> float:
+        """Set a signal of the controller and return it as read afterwards.
+
+        Signals can start motions of other machines and of programs. Raises RobotError, ValueError.
+        """
+        if not math.isfinite(value):
+            raise ValueError(f"a signal has a finite value, not {value}")
+        async with self._permitted("write_controller_signal") as controller:
+            return float((await controller.set_signal(name, value)).value)
 
     async def follow_log(
         self, publish: "Callable[[LogEvent], None]", note: Callable[[str], None]

@@ -77,7 +77,15 @@ def operator_services(operator: OperatorServices) -> tuple[tuple[Message, str, S
     async def write_symbol(request: Message, response: Message) -> None:
         response.value = await operator.write_symbol(request.path, request.value)
 
+    async def read_signal(request: Message, response: Message) -> None:
+        response.value = await operator.read_signal(request.name)
+
+    async def write_signal(request: Message, response: Message) -> None:
+        response.value = await operator.write_signal(request.name, request.value)
+
     return (
+        (ReadSignal, "read_controller_signal", read_signal),
+        (WriteSignal, "write_controller_signal", write_signal),
         (SetSpeedRatio, "set_speed_ratio", set_speed_ratio),
         (ReadSymbol, "read_rapid_symbol", read_symbol),
         (WriteSymbol, "write_rapid_symbol", write_symbol),

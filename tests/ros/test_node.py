@@ -4,6 +4,7 @@ import signal
 import sys
 import time
 from functools import partial
+from itertools import pairwise
 
 import pytest
 from messages import (
@@ -25,8 +26,14 @@ LONG = 600.0
 
 
 @pytest.fixture
-def sim():
-    config = load_config("irb120")
+def rate():
+    """Hz of the driver's states; None: its default."""
+    return None
+
+
+@pytest.fixture
+def sim(rate):
+    config = load_config("irb120", overrides=[f"state.rate={rate}"] if rate else [])
     system = make_system(config, build(config))
     with VirtualController(
         system, config.groups, clock="real", speed=SPEED, ports="auto"
@@ -211,6 +218,26 @@ def test_a_goal_is_judged_by_the_overridden_configuration(up):
     node = up(overrides=["joints.joint_1.upper=1"])
     status, code, text = ended(action(node).send(goal(0.0, 0.1)))
     assert (status, code, "outside its limits" in text) == ("aborted", -1, True)
+
+
+@pytest.mark.parametrize("rate", [50])
+def test_clock_is_the_controllers_and_has_50_hz(up, rate):
+    """A simulator with another speed: its time is that of all stamps."""
+    node = up(publish_clock=True, overrides=[f"state.rate={rate}"])
+    clock = node.topics["/clock"]
+    first = clock.wait(lambda _: True).clock
+    clock.wait(lambda message: message.clock.sec - first.sec >= 3)
+    times = [message.clock.sec + message.clock.nanosec * 1e-9 for message in clock.sent]
+    steps = sorted(b - a for a, b in pairwise(times))
+    assert steps[0] > 0
+    assert steps[len(steps) // 2] == pytest.approx(0.02, abs=1e-3)
+    states = node.topics["joint_states"].wait(lambda _: True)
+    assert abs(states.header.stamp.sec - times[-1]) < 10
+
+
+def test_clock_below_50_hz_is_reported(up):
+    node = up(publish_clock=True)
+    wait_for_line(node.get_logger(), "/clock has the 10 Hz of the states")
 
 
 def test_up_before_the_robot_and_says_why_it_waits(driver_type):

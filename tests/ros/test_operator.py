@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "servers" / "rws"))
 
 from served import make_runner
 
-from rapidgen.client.errors import ConnectionFailed, NotReady, RequestRefused
+from rapidgen.client.errors import ConnectionFailed, NotReady, RequestRefused, RobotError
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.ros.operator_services import GUARDED, OperatorAccess, OperatorServices
 from rapidgen.ros.parameters import DECLARED, PASSWORD, read
@@ -114,6 +114,26 @@ def test_what_may_move_the_robot_needs_permission(served):
                 await o.write_symbol("T_ROB1/MainModule/x", "1;2")
             with pytest.raises(NotReady, match="TASK/MODULE/NAME"):
                 await o.read_symbol("x")
+
+    asyncio.run(tried())
+
+
+def test_signals_of_the_controller_are_read_and_set(served):
+    _, access = served
+
+    async def tried():
+        async with operator(access) as o:
+            for value in (1.0, 0.0):
+                assert await o.write_signal("aoSpeed", value) == value
+                assert await o.read_signal("aoSpeed") == value
+            with pytest.raises(RobotError, match="noSuch"):
+                await o.read_signal("noSuch")
+            with pytest.raises(ValueError, match="finite"):
+                await o.write_signal("aoSpeed", float("nan"))
+        async with operator(replace(access, allowed=frozenset())) as o:
+            with pytest.raises(RequestRefused, match="is not permitted here"):
+                await o.write_signal("aoSpeed", 1.0)
+            assert await o.read_signal("aoSpeed") == 0.0
 
     asyncio.run(tried())
 
