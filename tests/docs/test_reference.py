@@ -12,7 +12,9 @@ from rapidgen.client import egm
 
 PAGES = Path(__file__).parents[2] / "docs" / "reference" / "client"
 TEXT = "\n".join(page.read_text(encoding="utf-8") for page in sorted(PAGES.glob("*.md")))
-ENTRIES = Counter(re.findall(r"^\.\. auto\w+:: (?:rapidgen\.client\.(?:egm\.)?)?(\S+)", TEXT, re.M))
+ENTRIES = Counter(
+    re.findall(r"^\.\. (?:auto|py:)\w+:: (?:rapidgen\.client\.(?:egm\.)?)?(\S+)", TEXT, re.M)
+)
 BY_TASK = ["Robot", "Controller", "Trajectory", "Program", "Pose", "Execution", "Stream"]
 
 
