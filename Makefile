@@ -267,6 +267,9 @@ ROS_PYTHON ?= python3
 ros-node: ## 5 min: what the ROS 2 node adds to a bare client and publisher, with a real rclpy
 	$(ROS_PYTHON) benchmarks/ros_node.py
 
+ros-streaming: ## 3 min: delays of commands and goals of the ROS 2 node, with a real rclpy
+	$(ROS_PYTHON) benchmarks/ros_streaming.py
+
 driver-boundary: $(STAMP) ## 2 h: boundary values in every field of every message, in nine states, on all ports
 	$(BIN)/python tools/boundary.py --jobs 2 --results build/boundary.jsonl
 

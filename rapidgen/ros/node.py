@@ -150,6 +150,7 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
                 preempt=parameters.preempt,
                 speed=parameters.stream_speed,
                 idle=parameters.stream_idle,
+                allow_delayed=parameters.allow_delayed,
                 is_hardware=not parameters.has_action,
             )
             self._doors.append(

@@ -34,6 +34,7 @@ DECLARED: tuple[tuple[str, str | bool | float | list[str], str], ...] = (
     ("goal_time_tolerance", 0.0, "default of goal_time_tolerance, s; 0: none"),
     ("stamp_tolerance", 0.2, "s by which header.stamp may be past"),
     ("preempt", False, "a command of a streaming topic ends the goal that is executed"),
+    ("allow_delayed", False, "without EGM: commands half a second late, at most 50 mm/s"),
     ("stream_speed", 0.25, "share of the speeds and accelerations for streaming topics, to 1"),
     ("stream_idle", 10.0, "s without motion after which a session of streaming ends"),
     ("controller", "", "HOST[:PORT] of Robot Web Services; empty: no services of the operator"),
@@ -68,6 +69,7 @@ class Parameters:
     """False: trajectories and joint_states are those of ros2_control's controllers."""
     policy: Policy
     preempt: bool
+    allow_delayed: bool
     stream_speed: float
     stream_idle: float
     operator: OperatorAccess | None
@@ -128,6 +130,7 @@ def read(values: Mapping[str, Any], environment: Mapping[str, str]) -> Parameter
             cast("Literal['refuse', 'resample']", values["dense"]),
         ),
         values["preempt"],
+        values["allow_delayed"],
         values["stream_speed"],
         values["stream_idle"],
         OperatorAccess(

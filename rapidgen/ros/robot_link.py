@@ -116,11 +116,12 @@ class RobotLink:
     def _came(self, robot: AsyncRobot) -> None:
         self._robot = robot
         self._follower = GoalExecutor(robot, self._policy, self.now, self._public.note)
-        if self._stream is not None and self._stream.group.egm is not None:
+        stream = self._stream
+        if stream is not None and (stream.group.egm is not None or stream.allow_delayed):
             # Late: it needs an extra.
             from rapidgen.ros.stream_execution import StreamExecutor
 
-            self._streamer = StreamExecutor(robot, self._stream, self._follower, self.now, self)
+            self._streamer = StreamExecutor(robot, stream, self._follower, self.now, self)
         self._why = ""
         self._public.note(f"connected to {robot.address}")
 
@@ -194,7 +195,7 @@ class RobotLink:
             code = "RG695"
             text = (
                 "it needs externally guided motion, and the configuration has no `egm:`; "
-                "add it, build and deploy, or send goals to the action"
+                "add it, build and deploy, or set the parameter allow_delayed"
             )
         now = asyncio.get_running_loop().time()
         if now - self._refused > AGAIN:

@@ -255,6 +255,8 @@ class StreamSettings:
     """Share of the configuration's speeds and accelerations."""
     idle: float = 10.0
     """s without motion after which the session is ended."""
+    allow_delayed: bool = False
+    """Without EGM: execute commands over the client's stream, half a second late and slowly."""
     is_hardware: bool = False
     """Commands are those of ros2_control: they never cease, and may be old when they begin.
 

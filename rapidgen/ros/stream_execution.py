@@ -11,12 +11,14 @@ pause, or ask for no motion.
 
 import asyncio
 from collections.abc import Callable, Sequence
+from contextlib import AbstractAsyncContextManager
 from typing import Protocol
 
 from rapidgen.client.aio import AsyncRobot
 from rapidgen.client.egm import AsyncEgmSession, EgmState, Envelope
 from rapidgen.client.egm.exchange import CYCLE, Path
 from rapidgen.client.errors import NotReady, RobotError, TargetRejected
+from rapidgen.ros.delayed_session import delayed
 from rapidgen.ros.goal_execution import reason
 from rapidgen.ros.stream_commands import (
     HELD,
@@ -104,7 +106,7 @@ class StreamExecutor:
     @property
     def is_measuring(self) -> bool:
         """True while the states of a session are published."""
-        return self._session is not None
+        return self._session is not None and self._settings.group.egm is not None
 
     @property
     def is_moving(self) -> bool:
@@ -259,7 +261,7 @@ class StreamExecutor:
             try:
                 if self._goals.is_busy:
                     await self._goals.preempt()
-                async with self._robot.egm(fraction=self._settings.speed) as session:
+                async with self._open() as session:
                     await self._serve(session)
             except RobotError as error:
                 # Frames may end before the driver's report of the reason comes.
@@ -279,6 +281,17 @@ class StreamExecutor:
         """Let `run` end: its cancellation may be lost in a wait for the next frame."""
         self._ended = True
         self._leave.set()
+
+    def _open(self) -> AbstractAsyncContextManager[AsyncEgmSession]:
+        """Return a session, without EGM one over the client's stream."""
+        settings = self._settings
+        if settings.group.egm is not None:
+            return self._robot.egm(fraction=settings.speed)
+        return delayed(self._robot, settings.group, settings.speed, self._delayed_by)
+
+    def _delayed_by(self, delay: float) -> None:
+        text = f"commands are executed {delay:.2f} s late, as measured"
+        self._tell(StreamReport("", text))
 
     async def release(self) -> None:
         """End the session for a goal. Raises NotReady if commands move the robot."""
@@ -308,7 +321,8 @@ class StreamExecutor:
             state = session.state
             if state is seen or state is None:
                 state = await session.next_state()
-            self._public.measured(state)
+            if self._settings.group.egm is not None:
+                self._public.measured(state)
             if not state.guided or state.stopped:
                 self._interrupt("RG697", state.ended or "the robot was stopped")
                 return

@@ -20,6 +20,7 @@ else:
 BEYOND = {
     "rapidgen.client.egm": "egm",
     "rapidgen.client.rws.": "web",
+    "rapidgen.ros.delayed_session": "egm",
     "rapidgen.ros.stream_execution": "egm",
     "rapidgen.ros.twist_motion": "egm",
     "rapidgen.testing.egm": "egm",

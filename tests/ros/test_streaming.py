@@ -218,3 +218,34 @@ def test_without_egm_the_first_command_says_so():
         assert "`egm:`" in s.reports[0].text
 
     streamed(use, name="irb120")
+
+
+def test_delayed_commands_are_slow_and_say_how_late_they_are():
+    """Without EGM they go over the client's stream: 50 mm/s at most (issue text)."""
+
+    async def use(s):
+        places = []
+        for _ in range(200):
+            s.velocities(*only(0.5))
+            await asyncio.sleep(0.02)
+            places.append(tcp(s))
+        speeds = np.linalg.norm(np.diff(places[::10], axis=0), axis=1) / 0.2
+        assert 0.03 < speeds.max() < 0.0505
+        rest = await s.at_rest()
+        assert rest[0] > 0.1
+        delays = [report for report in s.record.reports if "late, as measured" in report.text]
+        assert 0.3 < float(delays[-1].text.split()[3]) < 1.5
+        # A twist above the limit is ignored; a stop ends everything.
+        s.twist(0, 0, -0.1, 0, 0, 0)
+        assert s.reports[-1].code == "RG680"
+        moving = asyncio.ensure_future(s.every(0.02, 2.0, lambda: s.velocities(*only(-0.1))))
+        await asyncio.sleep(1.5)
+        await s.link.stop()
+        stood = s.joints
+        await moving
+        assert np.abs(s.joints - stood).max() < 1e-3
+        # A goal follows.
+        done = await s.goal(goal(stood, stood + 0.05))
+        assert done.status is FinalStatus.SUCCEEDED, done
+
+    streamed(use, name="irb120", allow_delayed=True)
