@@ -146,11 +146,21 @@ class SeenTarget(MessageModel):
     pose: Pose
 
 
+class SeenFrame(MessageModel):
+    """A declared tool, in the flange, or work object, in the robot's world."""
+
+    group: str
+    name: str
+    kind: Literal["tool", "work_object"]
+    pose: Pose
+
+
 class Targets(MessageModel):
-    """Targets of the moves of the loaded programs."""
+    """Targets of the moves of the loaded programs, and their tools and work objects."""
 
     type: Literal["targets"] = "targets"
     targets: tuple[SeenTarget, ...]
+    frames: tuple[SeenFrame, ...] = ()
 
 
 class SeenBody(MessageModel):

@@ -8,7 +8,7 @@ import pytest
 from tests.viewer.bench import DOCS, STATE, until
 
 pytestmark = pytest.mark.browser
-TABS = ("Pendant", "Program", "Jog", "Signals", "Log", "Path", "Network")
+TABS = ("Pendant", "Program", "Jog", "Signals", "Log", "Path", "Collisions", "Network")
 
 # Of each visible text: its contrast with its background, and the required one.
 CONTRASTS = """() => {

@@ -68,7 +68,7 @@ def test_no_tab_moves_away_under_the_mouse(irb120, open_page):
     assert tabs.count() == 0
     page.evaluate("hears()")
     page.get_by_role("tab", name="Program").click()
-    named = ["Pendant", "Program", "Jog", "Signals", "Log", "Path", "Network"]
+    named = ["Pendant", "Program", "Jog", "Signals", "Log", "Path", "Collisions", "Network"]
     assert tabs.all_inner_texts() == named
     assert page.get_by_role("tab", selected=True).inner_text() == "Program"
 

@@ -79,7 +79,7 @@ def test_scrubbed_there_and_back(page, recorded):
         page.get_by_role("row", name="passes").get_by_text(watched, exact=True).wait_for()
         page.get_by_role("tab", name="Signals").click()
         value = int(moment.signals["do1"])
-        lamp = "document.querySelector('[aria-label=\"Set do1\"]').textContent"
+        lamp = "document.querySelector('[aria-label^=\"Set do1\"]').textContent"
         until(page, lamp, lambda text, value=value: text == str(value))
         page.get_by_role("tab", name="Recording").click()
 

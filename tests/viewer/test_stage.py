@@ -35,7 +35,7 @@ def test_targets_of_the_program_and_the_frames_of_its_moves_are_drawn(ready, ope
     page = open_page(ready["view"])
     until(page, STATE)
     names = "[...document.querySelectorAll('.labels span')].map(label => label.textContent)"
-    assert until(page, names, len) == ["home", "pick"]
+    assert until(page, names, len) == ["home", "pick", "grip", "table"]
     aims = page.evaluate("rapidgen.stage.aimed()")
     np.testing.assert_allclose(aims[1]["pose"]["position"], [0.31, 0.02, 0.23], atol=1e-9)
     np.testing.assert_allclose(aims[2]["pose"]["position"], [0.31, 0.02, 0.15], atol=1e-9)

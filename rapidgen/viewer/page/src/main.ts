@@ -144,7 +144,7 @@ link.on("positions", (now) => {
   stage?.show(now);
   showTime(now.time);
 });
-link.on("targets", ({ targets }) => stage?.aim(targets));
+link.on("targets", ({ targets, frames }) => stage?.aim(targets, frames));
 link.on("panel", (panel: PanelState) => {
   showTime(panel.time);
   update({ panel });

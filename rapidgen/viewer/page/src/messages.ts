@@ -409,6 +409,14 @@ export interface SeenContact {
   readonly joints: Readonly<Record<string, readonly number[]>>;
 }
 
+/** A declared tool, in the flange, or work object, in the robot's world. */
+export interface SeenFrame {
+  readonly group: string;
+  readonly name: string;
+  readonly kind: "tool" | "work_object";
+  readonly pose: Pose;
+}
+
 /** Reason why all tasks are paused. */
 export interface SeenHalt {
   readonly reason: "breakpoint" | "step" | "cursor" | "error" | "pause" | "time";
@@ -583,10 +591,11 @@ export interface StopOnErrors {
   readonly errors: "never" | "unhandled" | "all";
 }
 
-/** Targets of the moves of the loaded programs. */
+/** Targets of the moves of the loaded programs, and their tools and work objects. */
 export interface Targets {
   readonly type: "targets";
   readonly targets: readonly SeenTarget[];
+  readonly frames: readonly SeenFrame[];
 }
 
 /** A task: its call stack, outermost first, and its robot's move. */

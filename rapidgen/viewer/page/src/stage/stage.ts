@@ -2,13 +2,13 @@
 
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import type { CollisionBodies, Collisions, Scene, SeenContact, Positions, SeenTarget, SeenThing } from "../messages";
+import type { CollisionBodies, Collisions, Scene, SeenContact, SeenFrame, Positions, SeenTarget, SeenThing } from "../messages";
 import { Grip, type GripMode, type Wanted } from "./grip";
 import { CollisionMarks } from "./collisions";
 import { Labels, TargetMarks, drawnWay } from "./marks";
 import { Meshes } from "./meshes";
 import { palette } from "./palette";
-import { axes, Robot } from "./robot";
+import { axes, place, Robot } from "./robot";
 import { drawnThing } from "./things";
 
 export type ViewName = "fit" | "front" | "side" | "top";
@@ -40,6 +40,9 @@ export class Stage {
   private tools: THREE.Object3D[] = [];
   readonly labels = new Labels();
   private targets: readonly SeenTarget[] = [];
+  private frames: readonly SeenFrame[] = [];
+  /** Declared tools and work objects. */
+  private frameMarks: THREE.Object3D[] = [];
   private marks: TargetMarks[] = [];
   private readonly layers = { ...LAYERS };
   readonly collisions: CollisionMarks;
@@ -89,7 +92,7 @@ export class Stage {
     this.floor.add(grid, axes(0.18, this.palette));
     this.collisions.paint();
     for (const robot of this.robots.values()) robot.paint();
-    this.aim(this.targets);
+    this.aim(this.targets, this.frames);
     this.draw();
   }
 
@@ -203,9 +206,20 @@ export class Stage {
     this.draw();
   }
 
-  /** Draw the targets of moves. */
-  aim(targets: readonly SeenTarget[]): void {
+  /** Draw the targets of moves, tools and work objects. */
+  aim(targets: readonly SeenTarget[], frames: readonly SeenFrame[]): void {
     this.targets = targets;
+    this.frames = frames;
+    for (const mark of this.frameMarks) mark.removeFromParent();
+    this.frameMarks = [];
+    for (const { group, name, kind, pose } of frames) {
+      const robot = this.robots.get(group);
+      const mark = axes(kind === "tool" ? 0.06 : 0.1, this.palette);
+      mark.name = name;
+      place(mark, pose);
+      (kind === "tool" ? robot?.flange : robot?.root)?.add(mark);
+      this.frameMarks.push(mark);
+    }
     for (const marks of this.marks) marks.dispose();
     this.marks = [];
     for (const [name, robot] of this.robots) {
@@ -228,6 +242,10 @@ export class Stage {
     const { layers } = this;
     for (const marks of this.marks) marks.root.visible = layers.targets;
     this.labels.set("targets", layers.targets ? this.marks.flatMap((marks) => marks.names()) : []);
+    for (const mark of this.frameMarks) mark.visible = layers.frames;
+    this.labels.set("frames", !layers.frames ? [] : this.frameMarks.map((mark) => ({
+      text: mark.name, at: () => mark.getWorldPosition(new THREE.Vector3()),
+    })));
     this.things.visible = layers.objects;
     this.zones.visible = layers.zones;
     this.collisions.all = layers.shapes;
