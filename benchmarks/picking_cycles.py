@@ -5,7 +5,7 @@
 The cycle is that of ABB's data sheets: 25 mm up, about 300 mm (here 305) across, 25 mm down and
 back, without a load. It is programmed with linear moves at vmax, z20 and stop points at both ends,
 tool down, across the robot's x axis. The fastest of some places is taken. `--draw` writes the table
-into docs/rapid/motion-model.md.
+into docs/rapid/motion-figures.md.
 """
 
 import argparse
@@ -39,7 +39,7 @@ DOWN = (0.0, 0.0, 1.0, 0.0)
 DISTANCES = (0.35, 0.45, 0.55, 0.65, 0.75, 0.85)
 HEIGHTS = (-0.2, 0.0, 0.2, 0.4, 0.6)
 """Places in shares of the length of the arm."""
-PAGE = Path(__file__).parents[1] / "docs/rapid/motion-model.md"
+PAGE = Path(__file__).parents[1] / "docs/rapid/motion-figures.md"
 BEGIN, END = "<!-- drawn by benchmarks/picking_cycles.py -->\n", "<!-- the cycles are drawn -->\n"
 
 

@@ -4,11 +4,13 @@ import re
 from pathlib import Path
 from typing import ClassVar
 
+import typer
 from pygments.lexer import RegexLexer, words
 from pygments.token import Comment, Keyword, Name, Number, Punctuation, String, Whitespace
 from sphinx.application import Sphinx
 
 from rapidgen import __version__
+from rapidgen.cli.app import COMMANDS, _app
 from rapidgen.diagnostics.pages import codes, page
 from rapidgen.rapid.syntax.lexer import KEYWORDS
 
@@ -75,7 +77,24 @@ def write_codes(app: Sphinx) -> None:
         for code in codes()
     )
     text = "# Diagnostics\n\nWhat `rapidgen explain CODE` says.\n\n" + "\n".join(chapters)
-    path = Path(app.srcdir) / "reference" / "codes.md"
+    write(app, "codes.md", text)
+
+
+def write_commands(app: Sphinx) -> None:
+    """The help of each command becomes a chapter of a page."""
+    chapters = []
+    for name in COMMANDS:
+        command = typer.main.get_command(_app([name])).commands[name]
+        context = command.make_context(name, [], resilient_parsing=True, max_content_width=90)
+        context.info_name = f"rapidgen {name}"
+        chapters.append(f"## {name}\n\n```text\n{command.get_help(context)}\n```\n")
+    introduction = "# Commands\n\nWhat `rapidgen COMMAND --help` says.\n\n"
+    write(app, "cli.md", introduction + "\n".join(chapters))
+
+
+def write(app: Sphinx, name: str, text: str) -> None:
+    """Write a page of the reference if it has changed, so that Sphinx reads it again only then."""
+    path = Path(app.srcdir) / "reference" / name
     if not path.exists() or path.read_text("utf-8") != text:
         path.write_text(text, encoding="utf-8")
 
@@ -83,4 +102,5 @@ def write_codes(app: Sphinx) -> None:
 def setup(app: Sphinx) -> None:
     """Sphinx calls it when it has read this file."""
     app.connect("builder-inited", write_codes)
+    app.connect("builder-inited", write_commands)
     app.add_lexer("rapid", RapidLexer)

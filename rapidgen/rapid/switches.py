@@ -2,7 +2,7 @@
 
 Every field is a question that the kernel manual leaves open, or on which sources disagree. The
 default follows a source (named) or, without one, memory of RobotWare 6 [mem].
-docs/rapid/virtual-controller.md lists them.
+docs/rapid/switches.md lists them.
 """
 
 from dataclasses import dataclass, fields

@@ -46,7 +46,7 @@ class Setting:
 
         With random task order it may wait for a dozen socket calls in a row, 25 ms of a slow
         controller with two clients. No driver meets a `planning_lead` of 20 ms then, and it need
-        not (docs/develop/assumptions.md, 35). With tasks in turn it is 13 ms.
+        not (docs/develop/assumptions-driver.md, 35). With tasks in turn it is 13 ms.
         """
         return not self.random_schedule or self.motion.planning_lead > _TURN * self.slowness
 

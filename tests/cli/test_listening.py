@@ -1,11 +1,11 @@
-"""Sockets on which a simulator listens: docs/use/security.md names each kind, and where it is."""
+"""Sockets on which a simulator listens: docs/use/sockets.md names each kind, and where it is."""
 
 import re
 from pathlib import Path
 
 import pytest
 
-SECURITY = Path(__file__).parents[2] / "docs" / "use" / "security.md"
+SECURITY = Path(__file__).parents[2] / "docs" / "use" / "sockets.md"
 HOST = "127.0.0.2"  # loopback, too, but not the default
 
 

@@ -22,7 +22,7 @@ HOST = f"127.{os.getpid() >> 16 & 63 | 64}.{os.getpid() >> 8 & 255}.{os.getpid()
 PASSWORD = KNOWN
 # What stands there, by page: a controller without a driver, or a driver that runs.
 EMPTY = {
-    "deploy.md": ("irb120", Generation.ONE, (6, 15)),
+    "deploy-web-services.md": ("irb120", Generation.ONE, (6, 15)),
     "omnicore.md": ("crb15000", Generation.TWO, (7, 6)),
     "web-services.md": ("irb120", Generation.ONE, (6, 15)),
 }

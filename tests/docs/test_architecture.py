@@ -10,8 +10,11 @@ from tests.docs.tree import PACKAGE, ROOT, modules
 
 PAGE = (ROOT / "docs" / "develop" / "architecture.md").read_text(encoding="utf-8")
 PLACE = re.compile(r"`((?:rapidgen|templates|tests|robots)/[\w/.]+)`(?:: `(\w+)`)?")
-RECIPES = (ROOT / "docs" / "develop" / "recipes.md").read_text(encoding="utf-8")
-PLACES = sorted({place for place in PLACE.findall(PAGE + RECIPES) if "<" not in place[0]})
+WHERE, RECIPES = (
+    "\n".join(p.read_text(encoding="utf-8") for p in sorted((ROOT / "docs" / "develop").glob(name)))
+    for name in ("where-is.md", "recipes*.md")
+)
+PLACES = sorted({place for place in PLACE.findall(PAGE + WHERE + RECIPES) if "<" not in place[0]})
 
 
 def test_package_list_matches_tree():

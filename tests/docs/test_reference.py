@@ -3,12 +3,14 @@
 import inspect
 import re
 from collections import Counter
+from importlib import import_module
 from pathlib import Path
 
 import pytest
 
 import rapidgen.client as client
 from rapidgen.client import egm
+from rapidgen.controller import VirtualController
 
 PAGES = Path(__file__).parents[2] / "docs" / "reference" / "client"
 TEXT = "\n".join(page.read_text(encoding="utf-8") for page in sorted(PAGES.glob("*.md")))
@@ -30,6 +32,20 @@ def test_public_methods_are_listed_by_task(name):
     public = {member for member in dir(kind) if not member.startswith("_")} - inherited
     listed = {entry.partition(".")[2] for entry in ENTRIES if entry.startswith(f"{name}.")}
     assert listed == public
+
+
+@pytest.mark.parametrize("name", ["config", "controller", "generate", "rapid"])
+def test_package_has_an_entry_for_each_public_name(name):
+    page = (PAGES.parent / f"{name}.md").read_text(encoding="utf-8")
+    listed = re.findall(r"^\.\. auto(?:class|function|exception):: (?:\S+\.)?(\w+)$", page, re.M)
+    assert set(import_module(f"rapidgen.{name}").__all__) <= set(listed)
+
+
+def test_virtual_controller_methods_are_listed_by_task():
+    page = (PAGES.parent / "controller.md").read_text(encoding="utf-8")
+    listed = re.findall(r"^\.\. auto\w+:: VirtualController\.(\w+)$", page, re.M)
+    public = {member for member in dir(VirtualController) if not member.startswith("_")}
+    assert sorted(listed) == sorted(public)
 
 
 def test_asynchronous_methods_are_those_of_the_other_class():

@@ -50,7 +50,7 @@ def test_every_number_is_there_once() -> None:
 
 
 def test_every_switch_is_documented_with_its_values() -> None:
-    page = (TESTS.parent / "docs" / "rapid" / "virtual-controller.md").read_text("utf-8")
+    page = (TESTS.parent / "docs" / "rapid" / "switches.md").read_text("utf-8")
     rows = dict(re.findall(r"^\| `(\w+)` \| (`[^|]+) \| [^|]+ \|$", page, re.MULTILINE))
     for field in fields(Switches):
         default = field.default
