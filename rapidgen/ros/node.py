@@ -1,4 +1,4 @@
-"""The ROS 2 node: with `operator_interface` the only module that imports rclpy.
+"""The ROS 2 node: with the modules `*_interface` all that imports rclpy.
 
 It maps messages to calls of `RobotLink` and back. The links run on one asyncio loop in a thread;
 rclpy's callbacks wait for their results. QoS: all topics are reliable, volatile, depth 10, as

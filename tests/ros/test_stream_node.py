@@ -7,7 +7,18 @@ import sys
 import time
 
 import pytest
-from messages import IS_REAL, TwistStamped
+from messages import (
+    IS_REAL,
+    Duration,
+    Float64MultiArray,
+    JointTrajectory,
+    JointTrajectoryPoint,
+    TwistStamped,
+)
+
+from rapidgen.config import load_config
+from rapidgen.controller.controller import VirtualController
+from rapidgen.generate import build, make_system
 
 EGM = "robots/examples/irb120_egm-rw6.yaml"
 
@@ -34,6 +45,16 @@ def guided():
         process.terminate()
         process.wait()
         process.stdout.close()
+
+
+@pytest.fixture
+def unguided():
+    """Address of a controller in this process, without EGM."""
+    config = load_config("irb120")
+    system = make_system(config, build(config))
+    with VirtualController(system, config.groups, clock="real", ports="auto") as controller:
+        controller.start()
+        yield str(controller.address("rob1", timeout=60))
 
 
 def twist(z, frame="base_link"):
@@ -67,5 +88,31 @@ def test_twist_moves_the_robot_and_its_silence_stops_it(driver_type, guided):
         node.send("~/twist_commands", twist(-0.05, frame="elbow"))
         assert "'elbow' is not known" in streaming(node, "RG694")
         states.wait(lambda message: max(abs(rate) for rate in message.velocity) < 1e-3)
+
+        # What MoveIt Servo publishes, and velocities.
+        there = list(states.sent[-1].position)
+        there[0] += 0.05
+        node.send("~/position_commands", Float64MultiArray(data=there))
+        states.wait(lambda message: abs(message.position[0] - there[0]) < 1e-3)
+        there[0] += 0.05
+        point = JointTrajectoryPoint(positions=there, time_from_start=Duration(sec=1))
+        names = [f"joint_{n}" for n in range(1, 7)]
+        node.send("~/joint_trajectory", JointTrajectory(joint_names=names, points=[point]))
+        states.wait(lambda message: abs(message.position[0] - there[0]) < 1e-3)
+        while states.sent[-1].position[0] > there[0] - 0.02:
+            node.send(
+                "~/velocity_commands", Float64MultiArray(data=[-0.2, 0.0, 0.0, 0.0, 0.0, 0.0])
+            )
+            time.sleep(0.02)
+    finally:
+        node.destroy_node()
+
+
+def test_without_egm_the_first_command_says_so(driver_type, unguided):
+    node = driver_type(parameter_overrides={"config": "irb120", "address": unguided})
+    try:
+        node.topics["joint_states"].wait(lambda message: True)
+        node.send("~/twist_commands", twist(-0.05))
+        assert "allow_delayed" in streaming(node, "RG695")
     finally:
         node.destroy_node()

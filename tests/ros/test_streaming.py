@@ -3,8 +3,9 @@
 import asyncio
 
 import numpy as np
+import pytest
 from ready import goal
-from streamed import AT_REST, NAMES, streamed
+from streamed import AT_REST, EGM, NAMES, streamed
 
 from rapidgen.ros.goals import FinalStatus
 
@@ -249,3 +250,16 @@ def test_delayed_commands_are_slow_and_say_how_late_they_are():
         assert done.status is FinalStatus.SUCCEEDED, done
 
     streamed(use, name="irb120", allow_delayed=True)
+
+
+@pytest.mark.parametrize(("name", "allowed"), [(EGM, False), ("irb120", True)])
+def test_emergency_stop_is_the_reason_and_moves_nothing_afterwards(name, allowed):
+    async def use(s):
+        s.controller.set_e_stop(True)
+        await asyncio.sleep(0.5)
+        await s.every(0.05, 2.0, lambda: s.velocities(*only(0.1)))
+        assert np.array_equal(s.joints, ZERO)
+        assert "an emergency stop is active" in s.reports[0].text
+        assert not s.streamer.is_open
+
+    streamed(use, name=name, allow_delayed=allowed)

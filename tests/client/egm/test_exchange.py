@@ -297,3 +297,34 @@ def test_frames_that_are_none(envelope):
     for data in (b"", b"\xff" * 30, b"\x0a\x02\x18\x03"):
         with pytest.raises(EgmMessageError):
             exchange.answer(data, 0.0)
+
+
+def test_target_with_a_duration_ends_without_a_stop(envelope):
+    """The robot slows down and waits; a target without one ends the session's targets."""
+    controller = Controller(envelope)
+    controller.frame()
+    for _ in range(2):
+        controller.exchange.execute(
+            Target(controller.now, speeds=(0.2, *HOME[1:4], 0, 0), lasts=0.1)
+        )
+        answers = [controller.frame() for _ in range(100)]
+        moved = [answer[0] for answer, _ in answers]
+        assert moved[20] > moved[0]
+        assert moved[-1] == moved[-2]
+        assert not answers[-1][1].stopped
+
+
+def test_spline_begins_from_the_present_reference(envelope):
+    """Position and speed are continuous, and a last velocity is slowed down after the end."""
+    controller = Controller(envelope)
+    controller.frame()
+    end, rate = (0.1, *HOME[1:]), (0.2, 0, 0, 0, 0, 0)
+    controller.exchange.execute(Path((0.5,), (end,), ((0.0,) * 6,), since=-0.5))
+    answers = [controller.frame()[0][0] for _ in range(120)]
+    controller.exchange.execute(Path((1.0,), ((0.25, *HOME[1:]),), (rate,)))
+    answers += [controller.frame()[0][0] for _ in range(400)]
+    speeds = [(b - a) / CYCLE for a, b in itertools.pairwise(answers)]
+    most = envelope.acceleration[0] * CYCLE * 1.01
+    assert max(abs(b - a) for a, b in itertools.pairwise(speeds)) < most
+    assert speeds[-1] == 0
+    assert 0.25 < answers[-1] < 0.27
