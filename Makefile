@@ -262,6 +262,11 @@ exploration-stops: $(STAMP) ## 20 min: 20,000 emergency stops and power failures
 ros-goals: $(STAMP) ## 20 min: 10,000 goals of FollowJointTrajectory by lot, with faults at any moment
 	$(BIN)/python tools/ros_goals.py
 
+.PHONY: ros-dds-goals
+ros-dds-goals: ## 3 min: 300 goals by lot over DDS, with PyPI's rclpy
+	@PYTHON="$(PYTHON)" .ci/ros
+	PYTHONPATH=$(CURDIR) build/ros/bin/python tools/ros_dds_goals.py
+
 # In a shell that has sourced ROS 2, with its Python: make ros-node ROS_PYTHON=.../bin/python
 ROS_PYTHON ?= python3
 ros-node: ## 5 min: what the ROS 2 node adds to a bare client and publisher, with a real rclpy
