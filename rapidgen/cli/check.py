@@ -107,6 +107,13 @@ def check(
         Path | None,
         typer.Option(help="Plot of the clearance over time: .html, .png, .svg.", metavar="FILE"),
     ] = None,
+    srdf: Annotated[
+        Path | None,
+        typer.Option(
+            help="Write the pairs of links that --cell does not check into an SRDF of MoveIt.",
+            metavar="FILE",
+        ),
+    ] = None,
     strict: Annotated[
         bool | None,
         typer.Option(
@@ -133,8 +140,15 @@ def check(
     only, unless --fix is given.
     """
     format = Format.JSON if as_json else format
-    if plot is not None and in_cell is None:
-        raise refusal("RG901", None, "--plot needs --cell", "add --cell FILE")
+    for option, value in (("--plot", plot), ("--srdf", srdf)):
+        if value is not None and in_cell is None:
+            raise refusal("RG901", None, f"{option} needs --cell", "add --cell FILE")
+    if srdf is not None and in_cell is not None:
+        from rapidgen.cli.collisions import write_cell_srdf
+
+        write_cell_srdf(in_cell, srdf)
+        if not paths:
+            return 0
     trajectories: list[Path] = []
     if in_cell is not None:
         from rapidgen.cli.collisions import TRAJECTORIES

@@ -93,6 +93,29 @@ def check_in_cell(files: Sequence[Path], cell_file: Path, plot: Path | None) -> 
     return found
 
 
+def write_cell_srdf(cell_file: Path, path: Path) -> None:
+    """Write the pairs of links that a cell's check leaves out as an SRDF.
+
+    Raises DiagnosticError (RG848: not written; RG833: the existing file is no SRDF).
+    """
+    from rapidgen.collision.srdf import disabled_pairs, write_srdf
+    from rapidgen.collision.world import build_world, other_groups, sources_of
+    from rapidgen.config.cell import load_cell
+
+    cell = load_cell(cell_file)
+    sources = sources_of(cell, other_groups(cell))
+    world = build_world(cell, sources)
+    pairs = disabled_pairs(world.scene, world.allowed, {thing.name for thing in cell.things})
+    names = [s.description.graph.robot.name for s in sources if s.description is not None]
+    try:
+        write_srdf(path, names[0] if names else cell_file.stem, pairs)
+    except OSError as fault:
+        raise refusal(
+            "RG848", None, f"cannot write {path}: {fault.strerror}", "choose another file"
+        ) from None
+    sys.stderr.write(f"{path}: {len(pairs)} pairs disabled\n")
+
+
 def _of_trajectory(file: Path, cell: "CellDescription", cell_file: Path) -> "CollisionReport":
     """Check the limits of a trajectory, then its path from its first point."""
     from rapidgen.client.collisions import CellCheck

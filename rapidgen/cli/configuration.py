@@ -283,7 +283,12 @@ def fit_shapes(
     from rapidgen.config.urdf.visual_trees import tree_of_file
 
     if not source.exists():
-        raise refusal("RG001", None, f"cannot read {source}: No such file or directory")
+        raise refusal(
+            "RG001",
+            None,
+            f"cannot read {source}: No such file or directory",
+            "name a URDF or xacro file, or the folder of a ROS package",
+        )
     path = find_description(source)
     folder = output if output is not None else Path(f"{path.stem}_shapes")
     if folder.exists():

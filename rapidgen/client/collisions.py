@@ -25,11 +25,9 @@ from rapidgen.collision.check import CollisionReport, check_path
 from rapidgen.collision.gripping import grip_of, with_parts
 from rapidgen.collision.path import Path
 from rapidgen.collision.scene import Pair, Scene
-from rapidgen.collision.world import World, build_world, sources_of
+from rapidgen.collision.world import World, build_world, other_groups, sources_of
 from rapidgen.config.cell import load_cell
-from rapidgen.config.load import load_config
 from rapidgen.config.model import GroupConfig, RobotConfig
-from rapidgen.config.registry import is_path, shipped_names
 from rapidgen.diagnostics import Diagnostic, Span, error, refusal
 
 if TYPE_CHECKING:
@@ -59,20 +57,9 @@ class CellCheck:
 
     def __init__(self, cell: FilePath, config: RobotConfig, group: GroupConfig) -> None:
         described = load_cell(cell)
-        groups = {group.name: group}
-        own = {group.task.casefold()}
-        for task, keys in described.robots.items():
-            if task.casefold() in own or not keys.model:
-                continue
-            known = is_path(keys.model) or keys.model in shipped_names()
-            other = load_config(keys.model).groups if known else ()
-            for one in other:
-                if one.task.casefold() == task.casefold():
-                    groups.setdefault(one.name, one)
+        groups = (group, *other_groups(described, (group,)))
         paths = {group.name: config.path} if config.path.suffix else {}
-        self.world: World = with_parts(
-            build_world(described, sources_of(described, tuple(groups.values()), paths))
-        )
+        self.world: World = with_parts(build_world(described, sources_of(described, groups, paths)))
         """The present world: parts hang where they are gripped."""
         self.position: Callable[[], Sequence[float]] | None = None
         """Returns the robot's axis values, once it is connected."""

@@ -21,8 +21,9 @@ from rapidgen.config.urdf.visual_trees import Tree as Description
 from rapidgen.config.urdf.visuals import NoMesh, Visual, mesh_in_folder
 from rapidgen.diagnostics import Diagnostic, Severity, error
 
-_LARGE, _SMALL = 10.0, 0.1
-"""Size of a robot's largest mesh over that of its chain, outside of which its unit is doubtful."""
+_DOUBTFUL, _WRONG = (0.1, 2.5), (0.02, 10.0)
+"""Size of a robot's largest mesh over that of its chain, outside of which its unit is doubtful, or
+wrong. The largest mesh of a robot of ABB is 0.25 to 1 of its chain."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,16 +101,19 @@ def link_shapes(
 
 
 def _check_size(group: GroupConfig, largest: float, draft: Draft) -> None:
-    """Report meshes whose size does not fit the chain (RG826)."""
+    """Report meshes whose size does not fit the chain, with its tracks (RG826)."""
     chain = sum(float(np.linalg.norm(step.xyz)) for step in group.chain)
-    if not chain or _SMALL / 5 * chain < largest < _LARGE * chain:
+    chain += sum(j.upper - j.lower for j in group.joints if j.kind == "prismatic")
+    if not chain or _DOUBTFUL[0] * chain < largest < _DOUBTFUL[1] * chain:
         return
+    is_wrong = not _WRONG[0] * chain < largest < _WRONG[1] * chain
     factor = "0.001 0.001 0.001" if largest > chain else "1000 1000 1000"
     draft.report(
         "RG826",
         f"the largest mesh of {group.name} is {largest:.3g} m long, its kinematic chain "
         f"{chain:.3g} m",
-        f'is its unit wrong? <mesh ... scale="{factor}"/> in the description corrects it',
+        f'is its unit wrong? <mesh ... scale="{factor}"/> in the description corrects mm and m',
+        Severity.ERROR if is_wrong else Severity.WARNING,
     )
 
 

@@ -9,7 +9,7 @@ from rapidgen.axes import frames
 from rapidgen.collision.draft import Draft
 from rapidgen.collision.scene import Pair
 from rapidgen.collision.shapes import Shape, box, half_space
-from rapidgen.collision.srdf import read_srdf
+from rapidgen.collision.srdf import FROM_SRDF, read_srdf
 from rapidgen.collision.tree import WORLD, Tree
 from rapidgen.config.cell import AllowedKeys, CellDescription, CollisionKeys, ZoneKeys
 from rapidgen.diagnostics import suggest
@@ -77,7 +77,7 @@ def special_pairs(
             special[frozenset(parts)] = value / 1000
     if keys.srdf:
         for one, other, reason in read_srdf(cell.folder, keys.srdf):
-            allowed.setdefault(frozenset((one, other)), f"SRDF: {reason}")
+            allowed.setdefault(frozenset((one, other)), FROM_SRDF + reason)
     return allowed, special
 
 

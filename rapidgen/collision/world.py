@@ -31,8 +31,9 @@ from rapidgen.config.cell import (
     CellRobotKeys,
     Thing,
 )
+from rapidgen.config.load import load_config
 from rapidgen.config.model import GroupConfig
-from rapidgen.config.registry import is_path
+from rapidgen.config.registry import is_path, shipped_names
 from rapidgen.config.urdf.visual_trees import Tree as Description
 from rapidgen.config.urdf.visual_trees import tree_of_file, trees
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, error, suggest
@@ -131,6 +132,27 @@ def sources_of(
     return tuple(result)
 
 
+def other_groups(cell: CellDescription, own: Sequence[GroupConfig] = ()) -> list[GroupConfig]:
+    """Return the robots of a cell file, without those of the tasks of `own`.
+
+    A configuration with one robot serves any task; a name that is taken is replaced by the task's.
+    Raises DiagnosticError for a configuration that `load_config` does not accept.
+    """
+    taken, tasks = {group.name for group in own}, {group.task.casefold() for group in own}
+    result = []
+    for task, keys in cell.robots.items():
+        is_known = is_path(keys.model) or keys.model in shipped_names()
+        if task.casefold() in tasks or not is_known:
+            continue
+        groups = load_config(keys.model).groups
+        chosen = [group for group in groups if group.task.casefold() == task.casefold()]
+        for group in chosen or groups[: len(groups) == 1]:
+            name = task.casefold().removeprefix("t_") if group.name in taken else group.name
+            result.append(replace(group, task=task, name=name))
+            taken.add(name)
+    return result
+
+
 def build_world(
     cell: CellDescription,
     robots: Sequence[RobotSource],
@@ -155,6 +177,12 @@ def build_world(
             )
             place = _Place(base, len(robots) > 1, foreign, shared)
             _add_robot(cell, robot, keys[robot.group.name], place, draft)
+    tasks = {robot.group.task.casefold() for robot in robots}
+    draft.unchecked += [
+        f"robot of {task}: no model is known"
+        for task in cell.robots
+        if task.casefold() not in tasks
+    ]
     for thing in cell.things:
         _add_thing(cell, thing, draft)
     zones = {

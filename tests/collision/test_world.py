@@ -3,15 +3,21 @@
 import numpy as np
 import pytest
 
+from rapidgen.cli.app import main
+from rapidgen.client.collisions import CellCheck
 from rapidgen.collision.check import check_path
 from rapidgen.collision.path import Path
-from rapidgen.collision.srdf import write_srdf
+from rapidgen.collision.srdf import disabled_pairs, read_srdf, write_srdf
 from rapidgen.collision.world import build_world, sources_of
 from rapidgen.config.cell import load_cell
 from rapidgen.config.load import load_config
 from rapidgen.diagnostics import DiagnosticError
 
 POST = "things:\n  post: {box: [80, 80, 900], frame: {position: [350, 250, 450]}}"
+TWO = (
+    "robots:\n  T_ROB1: {model: robot.yaml, base: {position: [0, 0, 0]}}\n"
+    "  T_ROB2: {model: robot.yaml, base: {position: [1500, 0, 0]}}"
+)
 TURN = np.array([[0.0, 0.2, 0.1, 0, 0.6, 0], [1.2, 0.2, 0.1, 0, 0.6, 0]])
 
 
@@ -205,6 +211,76 @@ def test_srdf_is_written_and_read(cell, folder):
     world = world_of(path)
     assert world.allowed[frozenset(("link_5", "post"))] == "SRDF: User"
     assert "link_5" not in {v["bodies"][0] for v in report_of(world).as_json()}
+
+
+def test_written_srdf_is_read_back_with_the_same_pairs(cell, folder, capsys):
+    """[MoveIt: disable_collisions link1 link2 reason]; other elements of a file stay."""
+    output = folder / "out.srdf"
+    output.write_text(
+        '<robot name="mine"><group name="arm"/><disable_collisions link1="a" link2="b"/></robot>'
+    )
+    assert main(["check", "--cell", str(cell(POST)), "--srdf", str(output)]) == 0
+    text = output.read_text()
+    assert '<group name="arm"' in text
+    assert '<robot name="mine">' in text
+    written = set(read_srdf(folder, "out.srdf"))
+    assert ("link_3", "link_5", "bars meet in the wrist") in written
+    assert ("link_3", "link_4", "Adjacent") in written
+    assert not [pair for pair in written if "post" in pair or "a" in pair]
+    # The same cell with the SRDF instead of its own pairs checks the same pairs of links.
+    before = world_of(cell(POST))
+    path = cell(POST, collision="collision:\n  srdf: out.srdf")
+    path.write_text(path.read_text().split("\n  pairs:")[0])
+    after = world_of(path)
+    own, read = (disabled_pairs(w.scene, w.allowed, {"post"}) for w in (before, after))
+    assert own == read
+    assert {after.scene.names(i) for i in range(len(after.scene.pairs))} == {
+        before.scene.names(i) for i in range(len(before.scene.pairs))
+    }
+
+
+def test_srdf_of_two_equal_robots_is_rejected(cell, folder, capsys):
+    path = cell(POST, robots=TWO)
+    path.write_text(path.read_text().split("collision:")[0])
+    assert main(["check", "--cell", str(path), "--srdf", str(folder / "two.srdf")]) == 2
+    assert "RG848" in capsys.readouterr().err
+    assert not (folder / "two.srdf").exists()
+    assert main(["check", "--srdf", str(folder / "two.srdf")]) == 2
+
+
+def test_second_robot_of_one_configuration_is_in_the_world(cell, folder):
+    """A client of one robot sees the other one, although both have the same configuration."""
+    path = cell(POST, robots=TWO)
+    path.write_text(path.read_text().split("collision:")[0])
+    config = load_config(folder / "robot.yaml")
+    world = CellCheck(path, config, config.groups[0]).world
+    assert {name.split("/")[0] for name in (b.name for b in world.scene.bodies) if "/" in name} == {
+        "rob1",
+        "rob2",
+    }
+
+
+def test_robot_without_a_model_is_not_checked(cell):
+    two = (
+        f"{TWO.splitlines()[0]}\n{TWO.splitlines()[1]}\n  T_ROB3: {{base: {{position: [9, 9, 9]}}}}"
+    )
+    world = world_of(cell(POST, robots=two))
+    assert any("T_ROB3" in text for text in world.unchecked)
+
+
+@pytest.mark.parametrize(("size", "severity"), [(4.0, "warning"), (40.0, "error")])
+def test_mesh_of_a_doubtful_size_is_asked_about(cell, folder, size, severity):
+    pytest.importorskip("coal")
+    text = (folder / "arm.urdf").read_text()
+    mesh = '<collision><geometry><mesh filename="size.stl"/></geometry></collision></link>'
+    (folder / "size.urdf").write_text(text.replace("</link>", mesh, 1))
+    write_tetrahedron(folder / "size.stl", size)
+    path = cell(robots="robots:\n  T_ROB1: {model: robot.yaml, shapes: size.urdf}")
+    if severity == "error":
+        assert codes(path)[0] == "RG826"
+    else:
+        (found,) = [d for d in world_of(path).diagnostics if d.code == "RG826"]
+        assert "is its unit wrong?" in found.help
 
 
 @pytest.mark.parametrize("text", ["<robot", '<!DOCTYPE a [<!ENTITY b "c">]><robot>&b;</robot>'])
