@@ -10,6 +10,9 @@ interface Label {
   readonly at: () => THREE.Vector3;
 }
 
+const WIDE = 50; // px between two labels in one line
+const TALL = 13; // px between two lines of labels
+
 export class Labels {
   readonly element = h("div", { class: "labels", "aria-hidden": "true" });
   private readonly labels = new Map<string, Label[]>();
@@ -21,12 +24,18 @@ export class Labels {
   }
 
   draw(camera: THREE.Camera, width: number, height: number): void {
+    const placed: [number, number][] = [];
     for (const { element, at } of [...this.labels.values()].flat()) {
       const seen = at().project(camera);
       const inside = Math.abs(seen.x) < 1 && Math.abs(seen.y) < 1 && seen.z < 1;
       element.hidden = !inside;
-      if (inside)
-        element.style.transform = `translate(${((seen.x + 1) / 2) * width}px, ${((1 - seen.y) / 2) * height}px)`;
+      if (!inside) continue;
+      const x = ((seen.x + 1) / 2) * width;
+      let y = ((1 - seen.y) / 2) * height;
+      // A robot at its target has two names in one place: one below the other.
+      while (placed.some(([px, py]) => Math.abs(px - x) < WIDE && Math.abs(py - y) < TALL)) y += TALL;
+      placed.push([x, y]);
+      element.style.transform = `translate(${x}px, ${y}px)`;
     }
   }
 }
