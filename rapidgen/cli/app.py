@@ -44,6 +44,8 @@ COMMANDS = {
     "jog": ("motion", "Move joints or the tool by a small step."),
     "fit": ("fit", "Fit a dense curve by few moves within a tolerance."),
     "calibrate": ("calibration", "Measure the axes' accelerations (THE ROBOT MOVES)."),
+    "commission": ("commission", "Try a robot for the first time (THE ROBOT MOVES)."),
+    "report": ("commission", "Write an anonymised bundle for the developers of rapidgen."),
     "pose": ("observation", "Show the pose of the tool and the joint values."),
     "stop": ("motion", "Stop all motion groups of a robot, or one."),
     "monitor": ("observation", "Show the joints, mode and message rate of a robot live."),

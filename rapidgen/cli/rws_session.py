@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypedDict
 
 import typer
 
@@ -17,15 +17,21 @@ _PROMPT = 10.0
 """Seconds for which the pendant shows the question [RWS manual]."""
 
 
-@contextmanager
-def controller(
-    host: str, user: str, secrets: Path | None, fingerprint: str
-) -> "Iterator[Controller]":
-    """Connect to a controller and log out at the end. Raises DiagnosticError.
+class Login(TypedDict):
+    """Arguments of `Controller` and `AsyncController`."""
+
+    address: str
+    user: str
+    password: str
+    fingerprint: str
+    confirm: Callable[[str, str], bool] | None
+
+
+def login(host: str, user: str, secrets: Path | None, fingerprint: str) -> Login:
+    """Return address and log-in of a controller. Raises DiagnosticError.
 
     The host `sim` is the running simulator of this user.
     """
-    from rapidgen.client.rws import Controller
     from rapidgen.client.rws.address import parse_address
     from rapidgen.client.sim_address import SIMULATOR, find_web_services
     from rapidgen.deploy.secrets import Credentials, find_password
@@ -34,17 +40,26 @@ def controller(
         simulator = find_web_services()
         host, fingerprint = simulator.web_services, fingerprint or simulator.fingerprint
     address = parse_address(host)
-    login = find_password(
+    known = find_password(
         Credentials(address.user or user), address.host, address.port, secrets=secrets, ask=True
     )
-    result = Controller(
-        host,
-        user=login.user or "Default User",
-        password=login.password.get(),
+    return Login(
+        address=host,
+        user=known.user or "Default User",
+        password=known.password.get(),
         fingerprint=fingerprint,
         confirm=certificate_prompt(),
     )
-    with result:
+
+
+@contextmanager
+def controller(
+    host: str, user: str, secrets: Path | None, fingerprint: str
+) -> "Iterator[Controller]":
+    """Connect to a controller and log out at the end. Raises as `login`."""
+    from rapidgen.client.rws import Controller
+
+    with Controller(**login(host, user, secrets, fingerprint)) as result:
         yield result
 
 

@@ -153,6 +153,13 @@ class AsyncRobot(RobotApi[AsyncFlowRunner]):
         """Close all connections. An active motion is stopped first."""
         await self._runner.run(flows.stop.close(self._core))
 
+    async def drop_connections(self) -> None:
+        """Close all connections without a STOP, as a lost cable does.
+
+        An active motion fails with ConnectionLost; the driver stops the robot by itself.
+        """
+        await self._runner.run(flows.stop.drop(self._core))
+
     # State
 
     async def next_state(self, timeout: float | None = None) -> State:

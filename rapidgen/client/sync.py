@@ -196,6 +196,13 @@ class Robot(RobotApi[SyncFlowRunner]):
         """Close all connections. An active motion is stopped first."""
         self._runner.run(flows.stop.close(self._core))
 
+    def drop_connections(self) -> None:
+        """Close all connections without a STOP, as a lost cable does.
+
+        An active motion fails with ConnectionLost; the driver stops the robot by itself.
+        """
+        self._runner.run(flows.stop.drop(self._core))
+
     # State
 
     def next_state(self, timeout: float | None = None) -> State:

@@ -201,6 +201,17 @@ def close(core: Core) -> Flow[None]:
         yield CloseAll()
 
 
+def drop(core: Core) -> Flow[None]:
+    """Close all connections without a STOP, as a lost cable does."""
+    motion = core.motion
+    if motion is not None and not motion.is_over:
+        motion.failed(
+            ConnectionLost.because("RG602", "this client dropped its connections on purpose")
+        )
+        motion.is_settled = True
+    yield CloseAll()
+
+
 def _unread(motion: CommandedMotion | None) -> int:
     """Return the points that the controller may read before a later STOP."""
     return motion.total if motion is not None and motion.phase is Phase.SENDING else 0
