@@ -211,11 +211,11 @@ def test_trajectory_of_a_controller_is_followed():
         await hardware.update(2.0, hold(goal))
         assert np.abs(s.joints - goal).max() < 1e-3
         # A controller that holds for longer than `idle` keeps the session.
-        await hardware.update(3.0, hold(goal))
+        await hardware.update(1.0, hold(goal))
         assert s.streamer.is_measuring
         assert not s.reports, s.reports
 
-    streamed(use, is_hardware=True, speed=1.0, idle=2.0)
+    streamed(use, is_hardware=True, speed=1.0, idle=1.0)
 
 
 def test_commands_elsewhere_do_not_move_the_robot():
@@ -245,22 +245,22 @@ def test_trajectory_after_a_stop_does_not_go_on():
     async def use(s):
         hardware = Hardware(s, math.nan)
         begin = s.joints
-        await hardware.update(3.0, hold(begin))
+        await hardware.update(2.0, hold(begin))
         way = quintic(begin, begin + 0.4, 4.0)
         await hardware.update(1.5, way)
         await s.link.stop()
         stopped = s.joints
-        await hardware.update(2.0, lambda time: way(1.5 + time))
+        await hardware.update(1.0, lambda time: way(1.5 + time))
         braked = s.joints
         assert np.abs(braked - stopped).max() < 0.1
-        await hardware.update(3.0, hold(begin + 0.4))
+        await hardware.update(1.5, hold(begin + 0.4))
         assert np.abs(s.joints - braked).max() < 1e-3
         assert s.reports[-1].code == "RG694"
         # A controller that is activated again begins where the robot stands.
         here = s.joints
-        await hardware.update(2.5, hold(here))
+        await hardware.update(2.0, hold(here))
         assert s.streamer.is_measuring
-        await hardware.update(3.0, quintic(here, here + 0.1, 1.0))
+        await hardware.update(2.2, quintic(here, here + 0.1, 1.0))
         assert np.abs(s.joints - (here + 0.1)).max() < 1e-3
 
     streamed(use, is_hardware=True, speed=1.0)
