@@ -8,7 +8,7 @@ import numpy as np
 from rapidgen.axes import frames
 from rapidgen.collision.draft import Draft
 from rapidgen.collision.scene import Pair
-from rapidgen.collision.shapes import Shape, box, half_space
+from rapidgen.collision.shapes import Array, Shape, box, cylinder, half_space, sphere
 from rapidgen.collision.srdf import FROM_SRDF, read_srdf
 from rapidgen.collision.tree import WORLD, Tree
 from rapidgen.config.cell import AllowedKeys, CellDescription, CollisionKeys, ZoneKeys
@@ -18,20 +18,63 @@ _PAIR = re.compile(r"\s+-\s+")
 _EVERYTHING = "all"
 
 
+_SIDES, _DIRECTIONS = 64, 600
+"""Planes around a cylinder, and around a sphere, to keep inside of."""
+
+
 def zone_shapes(zone: ZoneKeys) -> tuple[Shape, ...]:
-    """Return the box to keep out of, or the six half-spaces around one to keep inside."""
-    low = np.array(zone.box.low) / 1000
-    high = np.array(zone.box.high) / 1000
-    x, y, z = ((low + high) / 2).tolist()
+    """Return the volume to keep out of, or half-spaces around the one to keep inside of.
+
+    Planes within a cylinder or a sphere leave out at most 0.2 % or 1 % of its radius.
+    """
+    if zone.box is not None:
+        low, high = np.array(zone.box.low) / 1000, np.array(zone.box.high) / 1000
+        x, y, z = ((low + high) / 2).tolist()
+        if zone.keep == "out":
+            a, b, c = (high - low).tolist()
+            return (box(a, b, c, ((x, y, z), frames.UNIT)),)
+        planes = [(axis, low) for axis in np.eye(3)] + [(-axis, high) for axis in np.eye(3)]
+        return tuple(_behind(normal, corner) for normal, corner in planes)
+    if zone.cylinder is not None:
+        base = np.array(zone.cylinder.base) / 1000
+        radius, height = zone.cylinder.radius / 1000, zone.cylinder.height / 1000
+        up = np.array([0.0, 0.0, height])
+        if zone.keep == "out":
+            x, y, z = (base + up / 2).tolist()
+            return (cylinder(radius, height, ((x, y, z), frames.UNIT)),)
+        turns = 2 * np.pi * np.arange(_SIDES) / _SIDES
+        ways = np.stack([np.cos(turns), np.sin(turns), np.zeros(_SIDES)], axis=1)
+        inner = radius * np.cos(np.pi / _SIDES)
+        ends = (_behind(up / height, base), _behind(-up / height, base + up))
+        return (*ends, *(_behind(-way, base + inner * way) for way in ways))
+    assert zone.sphere is not None  # `load_cell` requires one of them
+    centre, radius = np.array(zone.sphere.centre) / 1000, zone.sphere.radius / 1000
     if zone.keep == "out":
-        a, b, c = np.abs(high - low).tolist()
-        return (box(a, b, c, ((x, y, z), frames.UNIT)),)
-    sides = []
-    for axis in np.eye(3):
-        for normal, corner in ((axis, low), (-axis, high)):
-            u, v, w = corner.tolist()
-            sides.append(half_space(normal.tolist(), (u, v, w)))
-    return tuple(sides)
+        x, y, z = centre.tolist()
+        return (sphere(radius, ((x, y, z), frames.UNIT)),)
+    ways = _directions(_DIRECTIONS)
+    # Every direction is near one of them, so all points inside the planes are in the sphere.
+    return tuple(_behind(-way, centre + _INNER * radius * way) for way in ways)
+
+
+def _behind(normal: Array, point: Array) -> Shape:
+    """Return the half-space behind a plane, whose normal points out of it."""
+    x, y, z = point.tolist()
+    return half_space(normal.tolist(), (x, y, z))
+
+
+_INNER = 0.99
+"""Cosine of the largest angle of any direction to the nearest of `_directions`."""
+
+
+def _directions(count: int) -> Array:
+    """Return evenly spread unit vectors (count, 3), on a spiral from pole to pole."""
+    k = np.arange(count) + 0.5
+    z = 1 - 2 * k / count
+    turn = k * np.pi * (3 - np.sqrt(5))
+    around = np.sqrt(1 - z * z)
+    result: Array = np.stack([around * np.cos(turn), around * np.sin(turn), z], axis=1)
+    return result
 
 
 def zone_pairs(name: str, zone: ZoneKeys, index: int, draft: Draft) -> list[Pair]:

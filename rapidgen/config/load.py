@@ -5,7 +5,7 @@ All errors are reported at once.
 
 import logging
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,7 +15,7 @@ from rapidgen.config.build import build
 from rapidgen.config.consistency import contradictions
 from rapidgen.config.draft import DraftFindings, GroupDraft, JointDraft
 from rapidgen.config.layers import Overrides
-from rapidgen.config.model import ChainLink, RobotConfig
+from rapidgen.config.model import ChainLink, RobotConfig, WorldZone
 from rapidgen.config.placeholders import extract_placeholders
 from rapidgen.config.truncation import limit_findings
 from rapidgen.config.validate import validate
@@ -60,11 +60,42 @@ def load_config(
         contradictions(draft, ("groups", draft.name), draft.names, report)
         _report_unsure(draft, groups[draft.name], report)
     config = build(valid.configuration, drafts, assembly.path, report)
+    if config is not None:
+        config = _with_world_zones(config, groups, assembly, report)
+        config = None if report.failed else config
     result = tuple(in_order(report.found))
     if config is None:
         raise DiagnosticError(limit_findings(result))
     _LOG.info("%s: %s, read from %d files", path_or_name, config.name, len(assembly.inputs))
     return replace(config, inputs=tuple(assembly.inputs), diagnostics=tuple(limit_findings(result)))
+
+
+def _with_world_zones(
+    config: RobotConfig,
+    groups: Mapping[str, schema.GroupKeys],
+    assembly: Assembly,
+    report: DraftFindings,
+) -> RobotConfig:
+    """Add the World Zones of cell files (RG839)."""
+    if not any(keys.world_zones for keys in groups.values()):
+        return config
+    from rapidgen.config.world_zones import world_zones_of  # a cell file has many keys
+
+    made = []
+    for group in config.groups:
+        file = groups[group.name].world_zones
+        zones: tuple[WorldZone, ...] = ()
+        if file:
+            at = ("groups", group.name, "world_zones")
+            folder = assembly.path.parent.resolve()
+            path = (folder / file).resolve()
+            if path.is_relative_to(folder):
+                several = len(config.groups) > 1
+                zones = world_zones_of(assembly.path.parent / file, group, several, at, report)
+            else:
+                report.error("RG839", f"{file} is not in the configuration's folder or below", at)
+        made.append(replace(group, world_zones=zones))
+    return replace(config, groups=tuple(made))
 
 
 def drafts_of(name: str) -> list[tuple[GroupDraft, schema.GroupKeys]]:

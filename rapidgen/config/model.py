@@ -234,6 +234,20 @@ class ExternalUnit:
 
 
 @dataclass(frozen=True, slots=True)
+class WorldZone:
+    """A volume that the controller supervises for the TCP, in its world: m.
+
+    `values`: lowest and highest corner of a box; centre of the lower end, radius and height of a
+    vertical cylinder; centre and radius of a sphere.
+    """
+
+    name: str
+    kind: Literal["box", "cylinder", "sphere"]
+    keep: Literal["inside", "out"]
+    values: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class GroupConfig:
     """One motion task with its mechanical unit: `joints` in wire order (1 to 10)."""
 
@@ -271,6 +285,8 @@ class GroupConfig:
     """Where accelerations were measured; empty: they are estimated."""
     egm: EgmSettings | None = field(default=None, metadata=SPARSE)
     """None: the driver has no externally guided motion."""
+    world_zones: tuple[WorldZone, ...] = field(default=(), metadata=SPARSE)
+    """Volumes that the generated driver gives to the controller (option 608-1)."""
     unit_group: str = field(default="", metadata=SPARSE)
     """Name of the mechanical unit group, if a backup has another than the unit's."""
 

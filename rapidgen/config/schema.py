@@ -518,6 +518,13 @@ class GroupKeys(StrictModel):
     egm: Annotated[EgmKeys | None, Rule("Externally guided motion; without it there is none.")] = (
         None
     )
+    world_zones: Annotated[
+        Text,
+        Rule(
+            "Cell file whose zones the controller supervises as World Zones (option 608-1), for "
+            "the TCP only; in this file's folder or below."
+        ),
+    ] = ""
     source: Annotated[
         dict[GroupFigure, Text],
         Rule("Source of the group's figures."),

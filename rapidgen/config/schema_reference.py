@@ -45,6 +45,8 @@ CELL_SECTIONS = (
     cell.AllowedKeys,
     cell.ZoneKeys,
     cell.ZoneBoxKeys,
+    cell.ZoneCylinderKeys,
+    cell.ZoneSphereKeys,
     cell.AttachKeys,
 )
 
@@ -124,6 +126,8 @@ def _key_of(part: type) -> str:
         cell.AllowedKeys: "`collision.pairs.NAME - NAME`",
         cell.ZoneKeys: "`zones.NAME`",
         cell.ZoneBoxKeys: "`zones.NAME.box`",
+        cell.ZoneCylinderKeys: "`zones.NAME.cylinder`",
+        cell.ZoneSphereKeys: "`zones.NAME.sphere`",
         cell.AttachKeys: "`attach` (a list of these)",
         schema.GroupKeys: "`groups.NAME`",
         schema.JointKeys: "`joints.NAME`",

@@ -51,6 +51,13 @@ def unit(a: Vector) -> Vector:
     return scale(a, 1 / norm(a))
 
 
+def rotated(q: tuple[float, float, float, float], v: Vector) -> Vector:
+    """Return a vector turned by a unit quaternion, scalar first."""
+    w, u = q[0], (q[1], q[2], q[3])
+    across = cross(u, v)
+    return add(v, add(scale(across, 2 * w), scale(cross(u, across), 2)))
+
+
 def quaternion(x: Vector, y: Vector, z: Vector) -> tuple[float, float, float, float]:
     """Return the unit quaternion, scalar first, of a frame with these unit axes."""
     # Four times the products of its components; the largest square divides without loss.

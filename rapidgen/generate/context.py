@@ -18,6 +18,7 @@ from rapidgen.config.model import (
     Tool,
     UserRoutine,
     WorkObject,
+    WorldZone,
 )
 from rapidgen.generate import layout
 from rapidgen.generate.hello_reply import hello_reply
@@ -168,9 +169,36 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "result_reply": messages.RESULT.reply(ReplyCode.SUCCESS).length,
         "max_trigg_events": MOST_SIGNALS,
         "egm": _egm(config, group),
+        "world_zones": [_world_zone(n, zone) for n, zone in enumerate(group.world_zones, 1)],
         "busy": _busy(group),
         "heartbeat_reply": messages.HEARTBEAT.reply(ReplyCode.SUCCESS).length,
         "signal_reply": messages.SIGNAL.reply(ReplyCode.SUCCESS).length,
+    }
+
+
+def _world_zone(number: int, zone: WorldZone) -> dict[str, object]:
+    """Return a World Zone in mm, with the arguments of its definition."""
+    values = [literal(round(value * _MM, 4)) for value in zone.values]
+    names = {
+        "box": (
+            ("LOW", "[" + ",".join(values[:3]) + "]"),
+            ("HIGH", "[" + ",".join(values[3:]) + "]"),
+        ),
+        "cylinder": (("BASE", "[" + ",".join(values[:3]) + "]"),),
+        "sphere": (("CENTRE", "[" + ",".join(values[:3]) + "]"),),
+    }[zone.kind]
+    constants = [{"name": f"ZONE_{number}_{part}", "value": value} for part, value in names]
+    sizes = [] if zone.kind == "box" else values[3:]
+    return {
+        "datum": f"zone_{number}",
+        "name": zone.name,
+        "keep": zone.keep,
+        "kind": zone.kind,
+        "define": {"box": "WZBoxDef", "cylinder": "WZCylDef", "sphere": "WZSphDef"}[zone.kind],
+        # The robot must not be in the volume of the shape.
+        "side": "Inside" if zone.keep == "out" else "Outside",
+        "constants": constants,
+        "arguments": ", ".join([*(str(c["name"]) for c in constants), *sizes]),
     }
 
 

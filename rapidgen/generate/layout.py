@@ -21,6 +21,7 @@ from rapidgen.system.model import TaskType
 COMMON, SERVER = "ROS_common", "ROS_server"
 STREAM, PROGRAMS, EXECUTION = "ROS_stream", "ROS_programs", "ROS_execution"
 EGM = "ROS_egm"
+ZONES = "ROS_zones"
 
 OF_FULL = (STREAM, PROGRAMS, EXECUTION)
 """Modules that the profile `basic` lacks."""
@@ -37,13 +38,13 @@ class TaskRole:
 
 
 ROLES = (
-    TaskRole("motion", "", (COMMON, EXECUTION, EGM, "ROS_motion")),
+    TaskRole("motion", "", (COMMON, EXECUTION, EGM, ZONES, "ROS_motion")),
     TaskRole("motion_server", "T_ROS_RECV", (COMMON, SERVER, PROGRAMS, STREAM, "ROS_motionServer")),
     TaskRole("supervisor", "T_ROS_SUP", (COMMON, "ROS_supervisor")),
     TaskRole("control", "T_ROS_CONTROL", (COMMON, SERVER, "ROS_control")),
     TaskRole("state", "T_ROS_STATE", (COMMON, SERVER, "ROS_stateServer")),
 )
-SYSTEM_MODULES = (COMMON, SERVER)
+SYSTEM_MODULES = (COMMON, SERVER, ZONES)
 
 
 def roles(config: RobotConfig, group: GroupConfig) -> tuple[TaskRole, ...]:
@@ -51,6 +52,8 @@ def roles(config: RobotConfig, group: GroupConfig) -> tuple[TaskRole, ...]:
     left_out = () if config.profile == "full" else OF_FULL
     if group.egm is None:
         left_out = (*left_out, EGM)
+    if not group.world_zones:
+        left_out = (*left_out, ZONES)
     return tuple(
         replace(role, modules=tuple(m for m in role.modules if m not in left_out))
         for role in ROLES
@@ -145,9 +148,19 @@ def make_system(config: RobotConfig, build_id: str) -> System:
                 ("QSTOP", "ROS_on_stop"),
             )
         )
+        + _zones(config)
         + _restarts(config),
         robotware=config.robotware,
         build_id=build_id,
+    )
+
+
+def _zones(config: RobotConfig) -> tuple[EventRoutine, ...]:
+    """Return the event routines that define World Zones."""
+    return tuple(
+        EventRoutine("ROS_define_zones", "POWER_ON", group.task, order=EVENT_ORDER)
+        for group in config.groups
+        if group.world_zones
     )
 
 

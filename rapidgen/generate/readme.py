@@ -29,6 +29,7 @@ def readme_context(config: RobotConfig, system: System, build_id: str) -> dict[s
         "yumi": all(group.model == "irb14000" for group in config.groups),
         "multi": len(config.groups) > 1,
         "guided": any(group.egm for group in config.groups),
+        "world_zones": any(group.world_zones for group in config.groups),
         "commissioning": config.commissioning,
         "full": config.profile == "full",
         "call_main": config.call_main,

@@ -13,7 +13,7 @@ from typing import Literal
 
 from rapidgen._reading import TooLarge, read_foreign
 from rapidgen.axes.frames import IDENTITY, UNIT, Pose, multiply
-from rapidgen.config.cell import CellDescription, CellShape
+from rapidgen.config.cell import CellDescription, CellShape, ZoneKeys
 from rapidgen.config.layers import Overrides
 from rapidgen.config.model import GroupConfig
 from rapidgen.config.urdf.source import xml_fault
@@ -159,12 +159,8 @@ def _things(
         if shape is not None:
             yield SeenThing(name=thing.name, shapes=(shape,))
     for name, zone in cell.zones.items():
-        low, high = zone.box.low, zone.box.high
-        x, y, z = ((a + b) / 2000 for a, b in zip(low, high, strict=True))
-        size = tuple(abs(b - a) / 1000 for a, b in zip(low, high, strict=True))
-        box = SeenShape(kind="box", size=size, pose=pose_of(((x, y, z), UNIT)))
         role: Literal["keep-in", "keep-out"] = "keep-in" if zone.keep == "inside" else "keep-out"
-        yield SeenThing(name=name, role=role, shapes=(box,))
+        yield SeenThing(name=name, role=role, shapes=(_zone_shape(zone),))
     for group in groups:
         keys = {task.casefold(): robot for task, robot in cell.robots.items()}
         robot = keys.get(group.task.casefold())
@@ -177,6 +173,24 @@ def _things(
             shapes = tuple(shape for shape in own if shape is not None)
             if shapes:
                 yield SeenThing(name=name, role="tool", robot=group.name, shapes=shapes)
+
+
+def _zone_shape(zone: ZoneKeys) -> SeenShape:
+    """Return the volume of a zone as a message."""
+    if zone.cylinder is not None:
+        x, y, z = (value / 1000 for value in zone.cylinder.base)
+        radius, height = zone.cylinder.radius / 1000, zone.cylinder.height / 1000
+        place = pose_of(((x, y, z + height / 2), UNIT))
+        return SeenShape(kind="cylinder", size=(radius, height), pose=place)
+    if zone.sphere is not None:
+        x, y, z = (value / 1000 for value in zone.sphere.centre)
+        size: tuple[float, ...] = (zone.sphere.radius / 1000,)
+        return SeenShape(kind="sphere", size=size, pose=pose_of(((x, y, z), UNIT)))
+    assert zone.box is not None  # `load_cell` requires one of them
+    low, high = zone.box.low, zone.box.high
+    x, y, z = ((a + b) / 2000 for a, b in zip(low, high, strict=True))
+    size = tuple(abs(b - a) / 1000 for a, b in zip(low, high, strict=True))
+    return SeenShape(kind="box", size=size, pose=pose_of(((x, y, z), UNIT)))
 
 
 def _shape(shape: CellShape, folder: Path, meshes: Meshes) -> SeenShape | None:

@@ -12,15 +12,19 @@ from rapidgen.generate import build
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = sorted((ROOT / "robots" / "examples").glob("*.yaml"))
 GOLDENS = ROOT / "rapid_out"
-_EGM = "/ROS_egm."
+_OPTIONS = ("/ROS_egm.", "/ROS_zones.")
 WHOLE = ("irb2400-rw5", "two_arms_track-rw6", "irb460-rw7")
 
 
 def kept(example: Path) -> dict[str, bytes]:
-    """Files by path that are kept of an example's output: all, or cfg text and ROS_egm."""
+    """Files by path that are kept of an example's output: all, or cfg text and its options."""
     files = build(load_config(example)).files
     complete = example.stem in WHOLE
-    return {f.path: f.data for f in files if complete or f.path.endswith(".cfg") or _EGM in f.path}
+    return {
+        f.path: f.data
+        for f in files
+        if complete or f.path.endswith(".cfg") or any(part in f.path for part in _OPTIONS)
+    }
 
 
 def main() -> None:
