@@ -308,6 +308,9 @@ collision-trials: $(STAMP) ## 5 min: 10,000 moves of a needle past a thin plate,
 collision-programs: $(STAMP) ## 30 min: 500 random programs of three robots in random cells, against samples every millisecond
 	$(BIN)/python tools/collision_programs.py
 
+collision-detection: $(STAMP) ## 10 min: contacts that stop the virtual controller in 200 random programs, against samples every millisecond
+	$(BIN)/python tools/collision_detection.py
+
 driver-frames: $(STAMP) ## 1 h: 200,000 hostile openings on all ports, half of them with boundary values, a good client after each
 	$(BIN)/python tools/driver_campaign.py frames --jobs 2 --results build/frames.jsonl
 

@@ -106,13 +106,13 @@ def trial(folder: Path, rng: np.random.Generator, counts: dict[str, float]) -> N
         began = time.process_time()
         report = watch.report()
         counts["cpu"] += time.process_time() - began
-        ((name, recorder),) = watch._recorders.items()
+        ((name, recorder),) = watch.history.recorders.items()
         times = list(range(0, controller.scheduler.now + 1, _MS))
         postures = np.array([posture for posture, _ in recorder.postures(times)])
     world = watch.world
     dense = JointPath.linear(np.array(times) / S, world.values({name: postures}))
     seen = clearances(world.scene, dense, dense.times, _LIMIT)
-    reported = {violation.pair: violation for violation in report.proof.violations}
+    reported = {violation.pair: violation for violation in report.stages[0].proof.violations}
     counts["seconds"] += times[-1] / S
     for number, pair in enumerate(world.scene.pairs):
         least = float(seen.distances[:, number].min())

@@ -11,7 +11,8 @@ from rapidgen.collision.scene import Pair
 from rapidgen.collision.shapes import Array, Shape, box, cylinder, half_space, sphere
 from rapidgen.collision.srdf import FROM_SRDF, read_srdf
 from rapidgen.collision.tree import WORLD, Tree
-from rapidgen.config.cell import AllowedKeys, CellDescription, CollisionKeys, ZoneKeys
+from rapidgen.config.cell import AllowedKeys, CellDescription, CollisionKeys
+from rapidgen.config.zones import ZoneKeys
 from rapidgen.diagnostics import suggest
 
 _PAIR = re.compile(r"\s+-\s+")

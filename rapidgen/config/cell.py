@@ -35,6 +35,7 @@ from rapidgen.config.tools import load_of, placement_of, tool_of, work_object_of
 from rapidgen.config.truncation import limit_findings
 from rapidgen.config.validate import valid_subset
 from rapidgen.config.yaml_tree import read_bytes
+from rapidgen.config.zones import ZoneKeys, check_zones
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 
 GROUP_BITS = 32
@@ -266,47 +267,6 @@ class AttachKeys(StrictModel):
 
 
 @dataclass(frozen=True)
-class ZoneBoxKeys(StrictModel):
-    """A box from corner to corner, along the axes of the world."""
-
-    low: Annotated[Vector, Rule("Corner with the lowest x, y, z in mm.")]
-    high: Annotated[Vector, Rule("Corner with the highest x, y, z in mm.")]
-
-
-@dataclass(frozen=True)
-class ZoneCylinderKeys(StrictModel):
-    """A vertical cylinder."""
-
-    base: Annotated[Vector, Rule("Centre of its lower end in mm.")]
-    radius: Annotated[float, Rule("mm", gt=0)]
-    height: Annotated[float, Rule("mm", gt=0)]
-
-
-@dataclass(frozen=True)
-class ZoneSphereKeys(StrictModel):
-    """A sphere."""
-
-    centre: Annotated[Vector, Rule("mm")]
-    radius: Annotated[float, Rule("mm", gt=0)]
-
-
-@dataclass(frozen=True)
-class ZoneKeys(StrictModel):
-    """A zone that robots keep inside of, or out of: a box, a cylinder or a sphere."""
-
-    keep: Annotated[Literal["inside", "out"], Rule("What a robot has to do.")]
-    box: Annotated[ZoneBoxKeys | None, Rule("Its box.")] = None
-    cylinder: Annotated[ZoneCylinderKeys | None, Rule("Its vertical cylinder.")] = None
-    sphere: Annotated[ZoneSphereKeys | None, Rule("Its sphere.")] = None
-    of: Annotated[
-        list[str],
-        Rule(
-            "`tcp` (the flange without a tool), `all`, or names of links and tools.", min_length=1
-        ),
-    ] = field(default_factory=lambda: ["all"])
-
-
-@dataclass(frozen=True)
 class CellKeys(StrictModel):
     """The surroundings of a controller."""
 
@@ -489,7 +449,7 @@ def load_cell(path: Path) -> CellDescription:
         tuple(keys.attach),
     )
     _check_force(keys, report, arm)
-    _check_zones(keys, report)
+    check_zones(keys.zones, report)
     if report.failed:
         raise DiagnosticError(limit_findings(report.found))
     return replace(cell, diagnostics=tuple(limit_findings(report.found)))
@@ -585,24 +545,6 @@ def _shape(
         report.error("RG832", f"{path[1]} has both unit and scale", path, help="keep unit")
     scale = _UNITS[keys.unit] if keys.unit is not None else (keys.scale or 0.0)
     return CellShape("mesh", (), placed, keys.mesh, scale)
-
-
-def _check_zones(keys: CellKeys, report: DraftFindings) -> None:
-    """Report zones without exactly one volume, or with sides of length 0 (RG832)."""
-    for name, zone in keys.zones.items():
-        path: KeyPath = ("zones", name)
-        given = [kind for kind in ("box", "cylinder", "sphere") if getattr(zone, kind) is not None]
-        if len(given) != 1:
-            named = " and ".join(given) or "no volume"
-            report.error(
-                "RG832", f"{name} has {named}", path, help="give one of box, cylinder, sphere"
-            )
-        elif zone.box is not None and any(
-            low >= high for low, high in zip(zone.box.low, zone.box.high, strict=True)
-        ):
-            report.error(
-                "RG832", f"{name}: each of low has to be below that of high", (*path, "box")
-            )
 
 
 def _round(keys: RoundKeys) -> tuple[float, float]:

@@ -8,7 +8,7 @@ import typing
 from typing import Any
 
 from rapidgen._json import Members
-from rapidgen.config import cell, schema
+from rapidgen.config import cell, schema, zones
 from rapidgen.config.rules import Hint, Rule
 
 SECTIONS = (
@@ -43,10 +43,10 @@ CELL_SECTIONS = (
     cell.CellToolKeys,
     cell.CollisionKeys,
     cell.AllowedKeys,
-    cell.ZoneKeys,
-    cell.ZoneBoxKeys,
-    cell.ZoneCylinderKeys,
-    cell.ZoneSphereKeys,
+    zones.ZoneKeys,
+    zones.ZoneBoxKeys,
+    zones.ZoneCylinderKeys,
+    zones.ZoneSphereKeys,
     cell.AttachKeys,
 )
 
@@ -124,10 +124,10 @@ def _key_of(part: type) -> str:
         cell.CellToolKeys: "`tools.NAME`",
         cell.CollisionKeys: "`collision`",
         cell.AllowedKeys: "`collision.pairs.NAME - NAME`",
-        cell.ZoneKeys: "`zones.NAME`",
-        cell.ZoneBoxKeys: "`zones.NAME.box`",
-        cell.ZoneCylinderKeys: "`zones.NAME.cylinder`",
-        cell.ZoneSphereKeys: "`zones.NAME.sphere`",
+        zones.ZoneKeys: "`zones.NAME`",
+        zones.ZoneBoxKeys: "`zones.NAME.box`",
+        zones.ZoneCylinderKeys: "`zones.NAME.cylinder`",
+        zones.ZoneSphereKeys: "`zones.NAME.sphere`",
         cell.AttachKeys: "`attach` (a list of these)",
         schema.GroupKeys: "`groups.NAME`",
         schema.JointKeys: "`joints.NAME`",

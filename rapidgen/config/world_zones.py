@@ -5,14 +5,24 @@ A controller with option 608-1 stops the robot before its TCP enters a volume, o
 spheres. Only the TCP is supervised, no link and no part, so a zone of links is no World Zone.
 """
 
+from collections.abc import Collection
+from dataclasses import dataclass, field
 from math import isclose
 from pathlib import Path
+from typing import Annotated
 
 from rapidgen.config import model, vectors
-from rapidgen.config.cell import CellDescription, ZoneKeys, load_cell
+from rapidgen.config.assemble import display_path, keys_of
 from rapidgen.config.draft import DraftFindings
 from rapidgen.config.draft import Path as KeyPath
+from rapidgen.config.plausibility import Arm
+from rapidgen.config.rules import Rule
+from rapidgen.config.schema import FrameKeys, Identifier, StrictModel
+from rapidgen.config.tools import placement_of
+from rapidgen.config.validate import valid_subset
 from rapidgen.config.vectors import Vector
+from rapidgen.config.yaml_tree import MappingNode, read_bytes
+from rapidgen.config.zones import ZoneKeys, check_zones
 from rapidgen.diagnostics import DiagnosticError, Severity
 
 MOST = 20
@@ -20,6 +30,21 @@ MOST = 20
 LEAST_SIDE, LEAST_RADIUS = 0.010, 0.005
 """m [mem]"""
 _OF_TCP = ("tcp", "all")
+
+
+@dataclass(frozen=True)
+class _RobotKeys(StrictModel):
+    """What a zone needs of a robot of a cell file."""
+
+    base: Annotated[FrameKeys | None, Rule("Position of its base.")] = None
+
+
+@dataclass(frozen=True)
+class _FileKeys(StrictModel):
+    """What World Zones need of a cell file; `load_cell` checks its other keys."""
+
+    robots: Annotated[dict[Identifier, _RobotKeys], Rule("By task.")] = field(default_factory=dict)
+    zones: Annotated[dict[Identifier, ZoneKeys], Rule("By name.")] = field(default_factory=dict)
 
 
 def world_zones_of(
@@ -31,12 +56,28 @@ def world_zones_of(
     Otherwise the controller's world is the base of its robot.
     """
     try:
-        cell = load_cell(file)
+        displayed = display_path(file)
+        root, found = keys_of(read_bytes(file, displayed), displayed, "a cell file", "`zones:`")
     except DiagnosticError as fault:
         report.found += fault.diagnostics
         return ()
-    report.found += cell.diagnostics
-    world = model.Placement() if several else _base(cell, group)
+    root = _only(root, ("robots", "zones"))
+    robots = root.entries.get("robots")
+    if robots is not None and isinstance(robots[1], MappingNode):
+        entries = {
+            task: (place, _only(value, ("base",)) if isinstance(value, MappingNode) else value)
+            for task, (place, value) in robots[1].entries.items()
+        }
+        root.entries["robots"] = (robots[0], MappingNode(entries, robots[1].span))
+    cell, faults, removed = valid_subset(root, _FileKeys)
+    own = DraftFindings(root, removed)
+    own.found = found + faults
+    check_zones(cell.zones, own)
+    base = _base(cell, group, own)
+    report.found += own.found
+    if own.failed:
+        return ()
+    world = model.Placement() if several else base
     result = []
     for name, zone in cell.zones.items():
         left_out = [word for word in zone.of if word not in _OF_TCP]
@@ -71,10 +112,15 @@ def _warn(report: DraftFindings, at: KeyPath, text: str) -> None:
     )
 
 
-def _base(cell: CellDescription, group: model.GroupConfig) -> model.Placement:
-    for task, base in cell.bases.items():
-        if task.casefold() == group.task.casefold():
-            return base
+def _only(node: MappingNode, names: Collection[str]) -> MappingNode:
+    entries = {name: value for name, value in node.entries.items() if name in names}
+    return MappingNode(entries, node.span)
+
+
+def _base(cell: _FileKeys, group: model.GroupConfig, report: DraftFindings) -> model.Placement:
+    for task, robot in cell.robots.items():
+        if task.casefold() == group.task.casefold() and robot.base is not None:
+            return placement_of(robot.base, ("robots", task, "base"), report, Arm())
     return model.Placement()
 
 

@@ -13,12 +13,13 @@ from typing import Literal
 
 from rapidgen._reading import TooLarge, read_foreign
 from rapidgen.axes.frames import IDENTITY, UNIT, Pose, multiply
-from rapidgen.config.cell import CellDescription, CellShape, ZoneKeys
+from rapidgen.config.cell import CellDescription, CellShape
 from rapidgen.config.layers import Overrides
 from rapidgen.config.model import GroupConfig
 from rapidgen.config.urdf.source import xml_fault
 from rapidgen.config.urdf.visual_trees import Tree, trees
 from rapidgen.config.urdf.visuals import NoMesh, Visual, mesh_in_folder
+from rapidgen.config.zones import ZoneKeys
 from rapidgen.viewer.messages import SeenShape, SeenThing
 from rapidgen.viewer.primitive_urdf import Drawing, described
 from rapidgen.viewer.primitives import standing

@@ -5,7 +5,7 @@ import pytest
 
 from rapidgen.axes import frames
 from rapidgen.collision.pairs import zone_shapes
-from rapidgen.config.cell import ZoneCylinderKeys, ZoneKeys, ZoneSphereKeys
+from rapidgen.config.zones import ZoneCylinderKeys, ZoneKeys, ZoneSphereKeys
 
 CYLINDER = ZoneCylinderKeys([100.0, -200.0, 50.0], 300.0, 400.0)
 SPHERE = ZoneSphereKeys([100.0, -200.0, 250.0], 300.0)
