@@ -193,7 +193,10 @@ def sim(
     ) as runner:
         _print_notes(runner.controller.diagnostics)
         if runner.controller.collisions is not None:
-            _print_notes(runner.controller.collisions.world.diagnostics)
+            world = runner.controller.collisions.world
+            _print_notes(world.diagnostics)
+            for text in world.unchecked:
+                typer.echo(f"not checked for collisions: {text}", err=True)
         if motors_off:
             _start_background_tasks(runner.controller)
         with (

@@ -5,13 +5,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from rapidgen.axes import frames
+from rapidgen.axes.kinematics import Kinematics
 from rapidgen.cli.app import main
 from rapidgen.client import Robot, Trajectory
 from rapidgen.client.core.state_port import StatePort
 from rapidgen.client.errors import InvalidTrajectory, NotSupported
+from rapidgen.collision.shapes import box
 from rapidgen.config.cell import load_cell
 from rapidgen.controller.controller import VirtualController
 from rapidgen.diagnostics import DiagnosticError
+from tests.collision.test_distances import of_mujoco
 
 # At the first position the flange looks down; the tool ends at z = 413.3 mm, the block 2 mm below
 # it, on the table. The wall ends below the tool, and above the bottom of the block.
@@ -178,6 +182,29 @@ def test_released_part_is_where_it_was_put(robot):
         robot.check(
             Trajectory.from_points([PICK, np.radians([60, 4, 5, 0, 75, 0]), there * 1.2], seconds=6)
         )
+
+
+def test_held_part_moves_with_the_flange(robot):
+    """Distances of MuJoCo, at places from the kinematics of the configuration."""
+    chain = Kinematics.of(robot.cell.group)
+    robot.cell.attach("block")
+    scene = robot.cell.world.scene
+    random = np.random.default_rng(2)
+    rows = PICK + random.uniform(-0.8, 0.8, (30, 6))
+    in_flange = frames.compose(
+        frames.invert(chain.forward(tuple(PICK))), ((0.3567, 0.0, 0.39135), frames.UNIT)
+    )
+    blocks = [
+        box(0.04, 0.04, 0.04, frames.compose(chain.forward(tuple(row)), in_flange)) for row in rows
+    ]
+    walls = [box(0.02, 0.02, 0.06, ((0.252, 0.252, 0.365), frames.UNIT))] * len(rows)
+    expected = of_mujoco(blocks, walls)
+    pairs = [set(scene.names(number)) for number in range(len(scene.pairs))]
+    values = robot.cell.world.values({"rob1": rows})
+    far = scene.body_distances(values, [pairs.index({"block", "wall"})])[:, 0]
+    free = expected > 0
+    assert free.sum() > 10
+    assert np.abs(far - expected)[free].max() < 1e-6
 
 
 def test_cell_file_needs_no_signals_for_a_grip(cell):

@@ -264,7 +264,7 @@ builtins(_PLAIN)
 def motion_sup(
     task: Task, _on: bool | None, off: bool | None, tune: float | None, _stay: bool | None
 ) -> None:
-    """Accept settings of collision detection, which is not simulated.
+    """Switch collision detection in a described cell; its sensitivity has no effect.
 
     ERR_ARGVALERR: outside 1 to 300 %.
     """
