@@ -67,16 +67,16 @@ def trial(booted: Bootable, counts: dict[str, float], lags: list[float]) -> None
         counts["pairs"] += 1
         touching = np.flatnonzero(own <= 0)
         names = set(world.scene.names(number))
-        told = next((one for one in contacts if set(one.bodies) == names), None)
+        contact = next((one for one in contacts if set(one.bodies) == names), None)
         counts["contacts"] += bool(len(touching))
-        if len(touching) and told is None:
+        if len(touching) and contact is None:
             counts["missed"] += 1
             print("missed:", *names, f"{-1000 * own.min():.3f} mm deep")
-        if told is not None and not len(touching):
+        if contact is not None and not len(touching):
             counts["false"] += 1
             print("false:", *names, f"{1000 * own.min():.3f} mm apart")
-        if told is not None and len(touching):
-            lags.append(1000 * (told.time - times[touching[0]] / S))
+        if contact is not None and len(touching):
+            lags.append(1000 * (contact.time - times[touching[0]] / S))
 
 
 def main(programs: int, seed: int) -> int:
