@@ -13,6 +13,7 @@ from rapidgen.diagnostics import DiagnosticError
 if TYPE_CHECKING:
     from rapidgen.deploy import Plan
     from rapidgen.deploy.command_run import FleetJob
+    from rapidgen.deploy.doctor import Check
 
 
 def plan(
@@ -330,14 +331,20 @@ def uninstall(
 
 
 def doctor(
-    config: options.ConfigOrFolder,
+    config: Annotated[
+        str,
+        typer.Argument(
+            help="Configuration, shipped name or generated folder; or HOST[:M,S,C] or `sim` alone.",
+            metavar="CONFIG|HOST",
+        ),
+    ],
     to: Annotated[
         str,
         typer.Option(
-            help="Controller: dir://, ftp://, sftp://, rws:// or rwss:// [USER@]HOST...",
-            metavar="URL",
+            help="Controller: HOST, `sim`, or dir://, ftp://, sftp://, rws://, rwss:// URL.",
+            metavar="HOST|sim|URL",
         ),
-    ],
+    ] = "",
     host: Annotated[
         str,
         typer.Option(
@@ -356,7 +363,10 @@ def doctor(
     """Check a controller: connection, ports, RobotWare, tasks.
 
     Each check is ok, warn, fail or unknown, with a fix. The exit code is 1 if one fails. Reads
-    only; tries once whether the default password is still accepted.
+    only. A host without a scheme is asked over its state port; with a URL the files are compared,
+    and the default password is tried once.
+
+    rapidgen doctor 192.168.125.1
 
     rapidgen doctor cell1.yaml --to "ftp://192.168.125.1/hd0a/SYSTEM/HOME"
     """
@@ -369,23 +379,26 @@ def doctor(
     from rapidgen.deploy.doctor import run_checks
     from rapidgen.deploy.target import Access, parse_target
 
-    checks = run_checks(
-        parse_target(to),
-        Access(
-            user,
-            secrets,
-            identity,
-            known_hosts,
-            ask=True,
-            fingerprint=fingerprint,
-            agree=certificate_prompt(),
-        ),
-        desired_set(config, overrides or ()),
-        hello=hello,
-        text=error_reason,
-        robot_host=host,
-        backup=backup,
-    )
+    if "://" in to:
+        checks = run_checks(
+            parse_target(to),
+            Access(
+                user,
+                secrets,
+                identity,
+                known_hosts,
+                ask=True,
+                fingerprint=fingerprint,
+                agree=certificate_prompt(),
+            ),
+            desired_set(config, overrides or ()),
+            hello=hello,
+            text=error_reason,
+            robot_host=host,
+            backup=backup,
+        )
+    else:
+        checks = _checked_host(config, to)
     if as_json:
         typer.echo(json.dumps([asdict(check) for check in checks], indent=2))
     else:
@@ -395,6 +408,26 @@ def doctor(
             if check.help and check.verdict != "ok":
                 typer.echo(f"{'':<7}  {'':<{width}}  -> {check.help}")
     return 1 if any(check.verdict == "fail" for check in checks) else 0
+
+
+def _checked_host(config: str, to: str) -> "tuple[Check, ...]":
+    """Check a host over the state port of each motion group. Raises DiagnosticError."""
+    from rapidgen.client import Robot
+    from rapidgen.client.connect_target import configuration_of, groups_of
+    from rapidgen.deploy.command_run import desired_set
+    from rapidgen.deploy.host_checks import host_checks
+
+    if (Path(config) / "manifest.json").is_file():
+        raise typer.BadParameter("a generated folder is compared with a URL", param_hint="--to")
+    known = configuration_of(config)
+    if known is not None and not to:
+        raise typer.BadParameter("which controller? HOST, `sim` or a URL", param_hint="--to")
+    build_id = desired_set(config).build_id if known is not None else ""
+    checks: list[Check] = []
+    for group in groups_of(config):
+        robot = Robot(config, address=to or None, group=group, watch=True)
+        checks += host_checks(robot, build_id)
+    return tuple(dict.fromkeys(checks))
 
 
 def show_plans(plans: "Sequence[Plan]") -> None:

@@ -96,25 +96,38 @@ def _running(
         yield Check("ports", "unknown", "a folder has no ports", "name the robot with --host")
         return
     for name, group in groups.items():
-        for role, number in members(members(group).get("ports") or {}).items():
-            port = whole(number)
-            where = f"{name} {role} {host}:{port}"
-            if role == "state":
-                result = _state_port(where, host, port, desired.build_id, hello)
-                yield result
-                if result.verdict != "unknown":
-                    yield from _driver_error(where, host, port, text)
-                continue
-            try:
-                socket.create_connection((host, port), timeout).close()
-                yield Check("ports", "ok", f"{where}: something listens")
-            except OSError as error:
-                yield Check(
-                    "ports",
-                    "unknown",
-                    f"{where}: {error.strerror or 'no answer'}",
-                    "nothing listens before the driver runs; afterwards look at the firewall",
-                )
+        ports = {role: whole(n) for role, n in members(members(group).get("ports") or {}).items()}
+        driver = None
+        if "state" in ports:
+            where = f"{name} state {host}:{ports['state']}"
+            driver = _state_port(where, host, ports["state"], desired.build_id, hello)
+            yield driver
+            if driver.verdict != "unknown":
+                yield from _driver_error(where, host, ports["state"], text)
+        for role, port in ports.items():
+            if role != "state":
+                answers = driver is not None and driver.verdict != "unknown"
+                yield _port(f"{name} {role} {host}:{port}", host, port, timeout, answers)
+
+
+def _port(where: str, host: str, port: int, timeout: float, answers: bool) -> Check:
+    """Check a motion or control port; not while a program answers on the state port.
+
+    A driver serves the newest client there: a connection would end another client's motion.
+    """
+    if answers:
+        help = "`rapidgen commission`, or any client that connects, shows whether it can be used"
+        return Check("ports", "unknown", f"{where}: not opened, a client may use it", help)
+    try:
+        socket.create_connection((host, port), timeout).close()
+    except OSError as error:
+        return Check(
+            "ports",
+            "unknown",
+            f"{where}: {error.strerror or 'no answer'}",
+            "nothing listens before the driver runs; afterwards look at the firewall",
+        )
+    return Check("ports", "ok", f"{where}: something listens")
 
 
 def _state_port(where: str, host: str, port: int, build: str, hello: Hello) -> Check:
