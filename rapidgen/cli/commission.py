@@ -197,8 +197,13 @@ class TerminalOperator:
 
     async def ask(self, question: "Question") -> str:
         """Ask until the answer is one of the choices. Raises DiagnosticError RG689 at the end."""
+        import termios
+
         from rapidgen.diagnostics import refusal
 
+        # What was typed before the question is no answer to it: it would permit a move that
+        # was not announced yet.
+        termios.tcflush(sys.stdin.fileno(), termios.TCIFLUSH)
         while True:
             typer.echo(f"{question.text} [{'/'.join(question.choices)}] ", err=True, nl=False)
             line = await _line()

@@ -1,6 +1,8 @@
 """The commands `commission` and `report`, from their arguments to their files."""
 
+import asyncio
 import json
+import pty
 import subprocess
 import sys
 import zipfile
@@ -8,7 +10,9 @@ import zipfile
 import pytest
 
 from rapidgen.cli.app import main
+from rapidgen.cli.commission import TerminalOperator
 from rapidgen.client.address import Address
+from rapidgen.commission import Question
 from rapidgen.commission.checklist import read_checklist
 
 LOOPBACK = Address("127.0.0.1")
@@ -68,6 +72,23 @@ def test_report_shows_and_writes(tmp_path, capsys, monkeypatch):
     with zipfile.ZipFile(bundle) as archive:
         assert archive.namelist() == ["versions.json", "durations-1.json"]
     assert main(["report"]) == 2
+
+
+def test_answer_typed_before_its_question_does_not_count(monkeypatch):
+    """It would permit a move that is not announced yet."""
+    ours, theirs = pty.openpty()
+    with open(theirs, encoding="utf-8") as terminal, open(ours, "wb", buffering=0) as keys:
+        monkeypatch.setattr(sys, "stdin", terminal)
+        keys.write(b"yes\n")
+
+        async def asked():
+            answer = asyncio.ensure_future(TerminalOperator().ask(Question("move", "Move now?")))
+            await asyncio.sleep(0)
+            await asyncio.sleep(0)
+            keys.write(b"perhaps\nno\n")
+            return await answer
+
+        assert asyncio.run(asked()) == "no"
 
 
 @pytest.mark.long
