@@ -206,6 +206,9 @@ program-campaign: $(STAMP) ## 5 min: random motion programs beside the same ones
 export-trials: $(STAMP) ## 4 min: 500 random programs as RAPID modules beside the same ones over the driver
 	$(BIN)/python -m tools.export_trials
 
+newcomer-trial: $(STAMP) ## 1 min: wrong commands, configurations and calls, and which of them get no good answer
+	$(BIN)/python -m tools.newcomer_trial
+
 # CONFIG and options of `rapidgen export` in OPTIONS.
 toolpaths: $(STAMP) ## 2 min: toolpaths and plans of the folder FOREIGN exported, and what became of each
 	$(BIN)/python -m tools.toolpaths $(FOREIGN) --config $(CONFIG) $(OPTIONS)

@@ -1,6 +1,6 @@
 """A path of joint positions with times, as frozen arrays."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Sized
 from dataclasses import dataclass, fields, replace
 from importlib import import_module
 from os import PathLike
@@ -39,6 +39,16 @@ class Waypoint(NamedTuple):
     joints: tuple[float, ...]
 
 
+def _uneven(positions: npt.ArrayLike) -> str:
+    """Return which point has another number of values than the first; empty if none has."""
+    rows = positions if isinstance(positions, list | tuple) else ()
+    counts = [len(row) if isinstance(row, Sized) else 0 for row in rows]
+    for number, count in enumerate(counts):
+        if count != counts[0]:
+            return f"point {number} has {count} values, point 0 has {counts[0]}"
+    return ""
+
+
 @dataclass(frozen=True, slots=True, eq=False, init=False, repr=False)
 class Trajectory:
     """`n` points of `k` joints.
@@ -72,7 +82,7 @@ class Trajectory:
             positions = np.array(positions, dtype=np.float64)
         except (TypeError, ValueError) as error:
             raise InvalidTrajectory.because(
-                "RG611", f"a trajectory needs numbers: {error}", exit_code=2
+                "RG611", f"a trajectory needs numbers: {_uneven(positions) or error}", exit_code=2
             ) from error
         if positions.ndim != 2 or times.shape != (len(positions),):
             raise InvalidTrajectory.because(

@@ -12,7 +12,7 @@ from rapidgen.config.draft import DraftFindings, GroupDraft
 from rapidgen.config.draft import Path as KeyPath
 from rapidgen.config.egm import check_partners, egm_of
 from rapidgen.config.joints import inertias_of, joints_of
-from rapidgen.config.plausibility import Arm, is_host, is_radians, length_of
+from rapidgen.config.plausibility import Arm, is_host, is_radians, length_of, payload_doubt
 from rapidgen.config.registry import find_shipped
 from rapidgen.config.tools import data_of, routine_of, tool_of, work_object_of
 from rapidgen.config.variant_model import label
@@ -27,6 +27,8 @@ GENERATIONS = {
 DEFAULT_PORTS = (11000, 11001, 11002)
 PORT_STEP = 10
 _PLAIN_PORTS_END = 4999
+_SHORTEST_CHAIN = 20.0
+"""mm, the sum of a chain's steps: shorter than any robot, it is in m."""
 
 SLOWEST_TCP = 10
 """Minimum TCP speed limit, mm/s; our choice, v5 and v10 are ABB's slowest."""
@@ -225,6 +227,7 @@ def _group(
         report.mute((*path, "positioners"))
     _chain(draft.chain, (*path, "chain"), names, "`joints`", report)
     _check_angles(keys, path, report)
+    _check_sizes(keys, path, report)
     external = {joint.name for joint in joints if joint.axis.startswith("eax")}
     for unit, chain in list(draft.positioners.items()):
         where: KeyPath = (*path, "positioners", unit)
@@ -332,6 +335,22 @@ def _check_angles(keys: schema.GroupKeys, path: KeyPath, report: DraftFindings) 
                 "rad?",
                 f"the unit is deg: {angle:g} rad are {math.degrees(angle):.4g}",
             )
+
+
+def _check_sizes(keys: schema.GroupKeys, path: KeyPath, report: DraftFindings) -> None:
+    """Report m where mm are meant (RG071), and g where kg are meant (RG070)."""
+    length = sum(math.hypot(*step.xyz) for step in keys.chain)
+    if 0 < length < _SHORTEST_CHAIN:
+        report.add(
+            "RG071",
+            Severity.WARNING,
+            f"a chain of {length:g} mm",
+            (*path, "chain"),
+            help=f"the unit is mm: {length:g} m are {length * 1000:g}",
+        )
+    if keys.max_payload and (doubt := payload_doubt(keys.max_payload)):
+        message, help = doubt
+        report.add("RG070", Severity.WARNING, message, (*path, "max_payload"), help=help)
 
 
 def _check_ceiling(limit: float, path: KeyPath, report: DraftFindings) -> None:

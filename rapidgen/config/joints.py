@@ -35,7 +35,7 @@ def joints_of(
             where,
             help="a message of simple_message holds 10 joint values: make two groups",
         )
-    _check_radians(draft, where, report)
+    in_radians = _check_radians(draft, where, report)
     seen: dict[str, str] = {}
     length = length_of(draft.chain)
     joints = []
@@ -52,6 +52,8 @@ def joints_of(
         if joint.axis:
             seen.setdefault(joint.axis, joint.name)
         for key, message, help in axis_doubts(joint):
+            if key == "upper" and joint.unit != "mm" and in_radians:
+                continue  # said once for the group
             # A wrong acceleration makes every simulated duration wrong, without a sign of it.
             severity = Severity.ERROR if "celeration" in key else Severity.WARNING
             report.add("RG071", severity, message, (*current, key), help=help)
@@ -80,11 +82,12 @@ def _settle_acceleration(
     joint.acceleration = None
 
 
-def _check_radians(draft: GroupDraft, path: KeyPath, report: DraftFindings) -> None:
-    """Report four or more turning axes within 7: radians, not degrees."""
+def _check_radians(draft: GroupDraft, path: KeyPath, report: DraftFindings) -> bool:
+    """Report four or more turning axes within 7: radians, not degrees; return whether."""
     turning = [joint for joint in draft.joints if joint.unit != "mm"]
     ends = [end for joint in turning for end in (joint.lower, joint.upper) if end is not None]
-    if len(turning) >= 4 and len(ends) == 2 * len(turning) and max(map(abs, ends)) <= 7:
+    is_odd = len(turning) >= 4 and len(ends) == 2 * len(turning) and max(map(abs, ends)) <= 7
+    if is_odd:
         report.add(
             "RG037",
             Severity.WARNING,
@@ -94,6 +97,7 @@ def _check_radians(draft: GroupDraft, path: KeyPath, report: DraftFindings) -> N
             "a configuration has degrees, as ABB's data sheets",
             key=True,
         )
+    return is_odd
 
 
 def _joint(

@@ -108,13 +108,20 @@ def mass_doubts(mass: float, arm: Arm) -> Iterator[Doubt]:
             if heavy
             else "give `max_payload:` if the data sheet of your robot says more",
         )
-    elif not arm.payload and mass > LARGEST_PAYLOAD:
+    elif not arm.payload and (doubt := payload_doubt(mass)):
         yield Doubt(
             "mass",
             mass > _OVERLOAD * LARGEST_PAYLOAD,
-            f"{mass:g} kg is more than any robot of ABB carries",
-            f"the unit is kg: {mass:g} g are {mass / 1000:g}",
+            *doubt,
         )
+
+
+def payload_doubt(payload: float) -> tuple[str, str] | None:
+    """Return reason and fix if no robot carries a payload (kg)."""
+    if payload <= LARGEST_PAYLOAD:
+        return None
+    reason = f"{payload:g} kg is more than any robot of ABB carries"
+    return reason, f"the unit is kg: {payload:g} g are {payload / 1000:g}"
 
 
 def _centre_doubts(mass: float, centre: Vector, arm: Arm) -> Iterator[Doubt]:
@@ -204,6 +211,11 @@ def is_radians(angle: float) -> bool:
     return 0 < abs(near) <= 8 and abs(angle - near * math.pi / 4) < _ANGLE
 
 
+def _are_radians(lower: float, upper: float) -> bool:
+    """True if limits in deg are within a turn in rad: less than any axis needs."""
+    return -math.tau <= lower < upper <= math.tau
+
+
 def is_host(text: str) -> bool:
     """True if it is a host address, as a controller writes it."""
     try:
@@ -223,6 +235,10 @@ def axis_doubts(draft: JointDraft) -> Iterator[tuple[str, str, str]]:
     if unit == "mm" and lower is not None and upper is not None and 0 < upper - lower < _STROKE:
         reason = f"a linear axis with a way of {upper - lower:g} mm"
         yield "upper", reason, "limits of a linear axis are in mm"
+    if unit == "deg" and lower is not None and upper is not None and _are_radians(lower, upper):
+        reason = f"a turning axis with a way of {upper - lower:.4g} deg"
+        limits = f"{math.degrees(lower):.4g} to {math.degrees(upper):.4g}"
+        yield "upper", reason, f"the unit is deg: {lower:g} to {upper:g} rad are {limits}"
     if speed is None:
         return
     fastest = _FASTEST_LINEAR if unit == "mm" else _FASTEST_TURN

@@ -57,6 +57,13 @@ ERROR, WARNING = Severity.ERROR, Severity.WARNING
             "900 mm from the flange",
         ),
         ("model: irb120\njoints: {joint_1: {speed: 0.5}}\n", "RG071", WARNING, "no speed of an"),
+        (
+            "model: irb120\njoints: {joint_1: {lower: -2.88, upper: 2.88}}\n",
+            "RG071",
+            WARNING,
+            "a way of 5.76 deg",
+        ),
+        ("model: irb120\nmax_payload: 3000\n", "RG070", WARNING, "3000 kg is more than any robot"),
         ("model: irb120\njoints: {joint_1: {offset: 1.5708}}\n", "RG071", WARNING, "1.5708 deg"),
         ("model: irb120\njoints: {joint_1: {acceleration: 5}}\n", "RG071", ERROR, "in 50 s"),
         ("model: irb120\njoints: {joint_1: {acceleration: 43}}\n", "RG071", ERROR, "in 5.81 s"),
