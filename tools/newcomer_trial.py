@@ -85,13 +85,13 @@ sim cell.yaml --speed 0 | speed
 sim cell.yaml --ports any | any
 sim cell.yaml --rws 3 | 3
 sim none.yaml | none.yaml
-move cell.yaml --joints 0,10,0 --to 127.0.0.1:9 --yes | 127.0.0.1
+move cell.yaml --joints 0,10,0 --to 127.0.0.1:9 --yes | 3 values
 move cell.yaml --joints 0,10,0,0,30,abc --yes | abc
 move cell.yaml missing.csv --yes | missing.csv
-move cell.yaml p.csv --dry-run | 127.0.0.1
-move cell.yaml degrees.csv --dry-run | 127.0.0.1
+move cell.yaml p.csv --dry-run | joint_3
+move cell.yaml degrees.csv --dry-run | joint_1
 move cell.yaml --yes | no target
-jog cell.yaml joint_9=5 --yes | 127.0.0.1
+jog cell.yaml joint_9=5 --yes | joint_9
 jog cell.yaml joint_1=fast --yes | fast
 pose cell.yaml --to sim | sim
 monitor cell.yaml --to nowhere.invalid --count 1 | nowhere.invalid

@@ -110,6 +110,13 @@ def move(
     figures = read_figures(joints) if joints else None
     requested = read_pose(pose, units) if pose else None
     robot = Robot(config, address=to or None, group=group, watch=dry_run)
+    if robot.configuration is not None:
+        # What is wrong with the target itself needs no connection.
+        if figures is not None:
+            joints_of(figures, units, robot.group, [0.0] * len(robot.group.names))
+        if asked is not None:
+            used = first_speed(robot.address, asked) if speed is None else speed
+            _check_file(asked.scaled(used), robot.group)
     must_ask = not dry_run and permitted(robot, to, yes=yes, real_robot=move_real_robot)
     with robot:
         if asked is not None:
@@ -185,6 +192,14 @@ def _from_file(points: Path) -> "Trajectory":
     if points.suffix == ".json":
         return Trajectory.from_json(points)
     return Trajectory.from_csv(points)
+
+
+def _check_file(path: "Trajectory", group: "Group") -> None:
+    """Reject a file that no driver of a group would take. Raises InvalidTrajectory."""
+    from rapidgen.client.core.checks import check_trajectory
+
+    if len(path) <= group.policy.capacity:
+        check_trajectory(path, group)
 
 
 def _joints(robot: "Robot", units: Units, figures: Figures) -> tuple[float, ...]:
@@ -411,6 +426,8 @@ def jog(
         raise typer.BadParameter(f"must be above 0, not {speed}", param_hint="--speed")
     requested = _read(by)
     robot = Robot(config, address=to or None, group=group)
+    if robot.configuration is not None:
+        _steps(robot, units, requested)
     must_ask = permitted(robot, to, yes=yes, real_robot=move_real_robot)
     with robot:
         steps = _steps(robot, units, requested)

@@ -7,7 +7,8 @@ import sys
 import pytest
 import typer
 
-from rapidgen.cli.sim import _look, _recording
+from rapidgen.cli.run_outputs import read_appearance
+from rapidgen.cli.sim import _recording
 from rapidgen.controller.boot_targets import BootOptions, load_target
 from rapidgen.controller.runner import ControllerRunner
 from rapidgen.viewer.recording.reader import RecordingFile
@@ -21,7 +22,7 @@ def runner():
 
 @pytest.fixture(scope="module")
 def look():
-    return _look(load_target(["irb120"], BootOptions()))
+    return read_appearance(load_target(["irb120"], BootOptions()))
 
 
 def test_a_restart_begins_another_file(runner, look, tmp_path):

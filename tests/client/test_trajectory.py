@@ -366,3 +366,11 @@ def test_dataframe_has_times_and_joints():
     assert list(frame.columns) == ["a", "b"]
     assert frame.loc[1.0, "b"] == 3
     assert list(replace(path, names=()).to_dataframe().columns) == ["joint_1", "joint_2"]
+
+
+def test_degrees_in_place_of_rad_are_named():
+    group = Group.of(config := load_config("irb120"), config.groups[0])
+    path = Trajectory([0, 5], [[0.0] * 6, [90.0, 0, 0, 0, 0, 0]], group.names)
+    with pytest.raises(InvalidTrajectory) as refused:
+        check_trajectory(path, group)
+    assert "looks like degrees" in refused.value.diagnostics[0].help

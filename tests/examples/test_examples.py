@@ -36,7 +36,14 @@ GUIDED = {
     "egm_hand_guiding.py": r"0\.\d mm from where the hand pulls",
     "egm_camera.py": r"above the part within [01]\.\d mm",
 }
-APART = {"deployment.py", "web_services.py", "test_counting.py", "trying.py", "guiding.py"}
+APART = {
+    "deployment.py",
+    "guiding.py",
+    "ros2_launch_test.py",
+    "test_counting.py",
+    "trying.py",
+    "web_services.py",
+}
 
 
 @pytest.fixture

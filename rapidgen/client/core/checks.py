@@ -319,6 +319,9 @@ def _limits(requested: _CheckInput) -> Iterator[Diagnostic]:
         coupled = joint.axis == "rax_3" and bool(requested.group.map.coupling)
         notes = ("axis 3 is coupled: its limits are those of joint 3 and 2 together",)
         worst = int(points[np.argmax(np.abs(values[points] - (joint.lower + joint.upper) / 2))])
+        help = "keep the points inside the limits"
+        if unit == "rad" and abs(values[worst]) > 2 * np.pi:
+            help += "; they are in rad, and this looks like degrees"
         yield requested.finding(
             "RG614",
             f"{joint.name} is outside its limits at",
@@ -326,7 +329,7 @@ def _limits(requested: _CheckInput) -> Iterator[Diagnostic]:
             f"{joint.axis} would be at {values[worst]:.4f} {unit} "
             f"(point {worst + requested.origin}), "
             f"and has {joint.lower:.4f} to {joint.upper:.4f} {unit}",
-            "keep the points inside the limits",
+            help,
             *(notes if coupled else ()),
         )
 
