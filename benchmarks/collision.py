@@ -8,16 +8,23 @@
 - The same with convex hulls of 300 vertices (coal).
 - Postures of a proof for a path that glides 0.5 mm above the clearance: a turn of axis 1 above a
   floor, and a straight move of the TCP over a tilted table.
+- `rapidgen run --cell` with the check, beyond the run without it: 10,000 moves of 0.5 mm around a
+  circle and 1,000 of 200 mm, at 500 mm/s, with a floor, a table 25 mm below the tool, and a post.
 """
 
+import contextlib
+import io
 import math
 import statistics
+import tempfile
 import time
+from pathlib import Path as FilePath
 
 import numpy as np
 
 from rapidgen.axes import frames
 from rapidgen.axes.kinematics import Kinematics
+from rapidgen.cli.app import main as rapidgen
 from rapidgen.collision import shapes
 from rapidgen.collision.path import Path
 from rapidgen.collision.proof import prove
@@ -31,6 +38,28 @@ ROBOT = frames_of_chain(GROUP, frames.IDENTITY, 0, 0)
 TREE = Tree(ROBOT.nodes, len(GROUP.joints))
 LOW = np.array([joint.lower for joint in GROUP.joints])
 HIGH = np.array([joint.upper for joint in GROUP.joints])
+URDF = FilePath(__file__).resolve().parents[1] / "robots" / "urdf" / "irb120.urdf"
+CELL = """robots:
+  T_ROB1: {model: robot.yaml}
+tools:
+  tGrip:
+    frame: {position: [0, 0, 120]}
+    load: {mass: 0.5}
+    shapes: [{box: [60, 60, 100], frame: {position: [0, 0, 60]}}]
+things:
+  floor: {half_space: [0, 0, 1], frame: {position: [0, 0, -5]}}
+  table: {box: [400, 600, 100], frame: {position: [400, 0, 140]}}
+  post: {box: [80, 80, 900], frame: {position: [-400, 250, 450]}}
+collision:
+  clearance: 10
+  pairs:
+    base_link - link_2: {allowed: bars meet in the shoulder}
+    link_3 - link_5: {allowed: bars meet in the wrist}
+    link_3 - link_6: {allowed: bars meet in the wrist}
+    link_4 - link_6: {allowed: bars meet in the wrist}
+    tGrip - link_4: {allowed: bars meet in the wrist}
+    tGrip - link_5: {allowed: bars meet in the wrist}
+"""
 
 
 def links(kind: str, rng: np.random.Generator) -> list[Body]:
@@ -154,12 +183,85 @@ def report(title: str, path: Path, tool: shapes.Shape, normal: frames.Vector, no
     print(f"0.5 mm above the clearance, {title}: {proof.postures} postures, free: {proof.is_free}")
 
 
+def write_cell(folder: FilePath) -> FilePath:
+    """Write a cell with an IRB 120 whose drawing serves as `<collision>`."""
+    text = URDF.read_text(encoding="utf-8")
+    text = text.replace("<visual>", "<collision>").replace("</visual>", "</collision>")
+    (folder / "arm.urdf").write_text(text, encoding="utf-8")
+    robot = "model: irb120\nurdf: {file: arm.urdf}\ncontroller: {robotware: 6.15}\n"
+    (folder / "robot.yaml").write_text(robot, encoding="utf-8")
+    path = folder / "cell.yaml"
+    path.write_text(CELL, encoding="utf-8")
+    return path
+
+
+def circle(count: int) -> list[frames.Vector]:
+    """Return points (mm) of a circle of 80 mm, 0.5 mm apart."""
+    angles = [0.5 * i / 80 for i in range(count + 1)]
+    return [(380 + 80 * math.cos(a), 80 * math.sin(a), 205.0) for a in angles]
+
+
+def walk(count: int) -> list[frames.Vector]:
+    """Return random points (mm) of a box in reach, each 200 mm from the one before."""
+    rng = np.random.default_rng(1)
+    points: list[frames.Vector] = [(380.0, 0.0, 250.0)]
+    while len(points) <= count:
+        way = rng.normal(size=3)
+        x, y, z = (np.array(points[-1]) + 200 * way / np.linalg.norm(way)).tolist()
+        if 280 <= x <= 430 and abs(y) <= 150 and 205 <= z <= 400:
+            points.append((x, y, z))
+    return points
+
+
+def write_program(path: FilePath, points: list[frames.Vector]) -> None:
+    """Write a program that moves the TCP through points (mm)."""
+    lines = ["MODULE bench", "  PROC main()", "    ConfL \\Off;", "    ConfJ \\Off;"]
+    for index, (x, y, z) in enumerate(points):
+        move = "MoveL" if index else "MoveJ"
+        zone = "z1" if 0 < index < len(points) - 1 else "fine"
+        target = f"[[{x:.3f},{y:.3f},{z:.3f}],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
+        lines.append(f"    {move} {target}, v500, {zone}, tGrip;")
+    lines += ["  ENDPROC", "ENDMODULE", ""]
+    path.write_text("\n".join(lines), encoding="utf-8")
+
+
+def seconds_of_run(program: FilePath, cell: FilePath, mode: str) -> float:
+    """Return the CPU time of `rapidgen run` with or without the check."""
+    words = ["run", str(program), "--cell", str(cell), "--collisions", mode, "--max-time", "3600"]
+    said = io.StringIO()
+    began = time.process_time()
+    with contextlib.redirect_stderr(said):
+        code = rapidgen(words)
+    took = time.process_time() - began
+    assert code == 0, said.getvalue()
+    assert ("collisions:" in said.getvalue()) == (mode == "error")
+    return took
+
+
+def runs() -> None:
+    """Print the CPU time that the check adds to runs of long programs."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = FilePath(name)
+        cell, program = write_cell(folder), folder / "bench.mod"
+        write_program(program, circle(10))
+        for mode in ("off", "error"):  # imports
+            seconds_of_run(program, cell, mode)
+        for title, points in (
+            ("10,000 moves of 0.5 mm", circle(10_000)),
+            ("1,000 moves of 200 mm", walk(1_000)),
+        ):
+            write_program(program, points)
+            off, on = (seconds_of_run(program, cell, mode) for mode in ("off", "error"))
+            print(f"run --cell, {title}: {on - off:.1f} s beyond {off:.1f} s, {on / off:.2f} times")
+
+
 def main() -> None:
     """Run all cases."""
     trajectories("capsule", 20)
     trajectories("capsule", 200)
     trajectories("hull", 20)
     gliding()
+    runs()
 
 
 if __name__ == "__main__":

@@ -56,7 +56,7 @@ def trial(booted: Bootable, counts: dict[str, float], lags: list[float]) -> None
         contacts = controller.collisions.contacts
         world = controller.collisions.world
         times = list(range(0, controller.scheduler.now + 1, _MS))
-        postures = np.array([posture for posture, _ in recorder.postures(times)])
+        postures = np.array(recorder.commanded(times))
     counts["seconds"] += times[-1] / S
     dense = JointPath.linear(np.array(times) / S, world.values({name: postures}))
     far = clearances(world.scene, dense, dense.times, _LIMIT).distances

@@ -108,7 +108,7 @@ def trial(folder: Path, rng: np.random.Generator, counts: dict[str, float]) -> N
         counts["cpu"] += time.process_time() - began
         ((name, recorder),) = watch.history.recorders.items()
         times = list(range(0, controller.scheduler.now + 1, _MS))
-        postures = np.array([posture for posture, _ in recorder.postures(times)])
+        postures = np.array(recorder.commanded(times))
     world = watch.world
     dense = JointPath.linear(np.array(times) / S, world.values({name: postures}))
     seen = clearances(world.scene, dense, dense.times, _LIMIT)

@@ -76,7 +76,7 @@ class WorldHistory:
         groups = [group.config for group in controller.motion.groups.values()]
         recorders = controller.motion.record()
         now = controller.scheduler.now
-        home = {name: recorder.postures([now])[0][0] for name, recorder in recorders.items()}
+        home = {name: recorder.commanded([now])[0] for name, recorder in recorders.items()}
         robots = sources_of(setup.cell, groups, setup.configurations)
         world = with_parts(build_world(setup.cell, robots, home))
         self.recorders = {name: r for name, r in recorders.items() if name in world.columns}
@@ -100,10 +100,7 @@ class WorldHistory:
     def values(self, times: Sequence[int]) -> Array:
         """Return commanded values (n, columns) of the world at times in ns."""
         return self.world.values(
-            {
-                name: np.array([commanded for commanded, _ in recorder.postures(times)])
-                for name, recorder in self.recorders.items()
-            }
+            {name: np.array(recorder.commanded(times)) for name, recorder in self.recorders.items()}
         )
 
     def forget(self, before: int) -> None:

@@ -153,6 +153,10 @@ class Recorder:
             result.append((motion.reference(time), actual))
         return result
 
+    def commanded(self, times: Sequence[int]) -> list[Posture]:
+        """Commanded axes (rad, m) at times (ns) that are not forgotten, at half the cost."""
+        return [self._at(time).reference(time) for time in times]
+
     def forget(self, before: int) -> None:
         """Drop motions that only concern earlier times."""
         lag = round(self._group.settings.servo_lag * S)
