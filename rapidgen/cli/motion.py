@@ -116,7 +116,8 @@ def move(
             joints_of(figures, units, robot.group, [0.0] * len(robot.group.names))
         if asked is not None:
             used = first_speed(robot.address, asked) if speed is None else speed
-            _check_file(asked.scaled(used), robot.group)
+            path = asked.scaled(used)
+            _check_file(_resampled(path, resample) if resample else path, robot.group)
     must_ask = not dry_run and permitted(robot, to, yes=yes, real_robot=move_real_robot)
     with robot:
         if asked is not None:
