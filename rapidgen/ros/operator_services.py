@@ -8,7 +8,8 @@ refuses all of them.
 
 import asyncio
 import math
-from collections.abc import AsyncIterator, Callable, Coroutine
+import re
+from collections.abc import AsyncIterator, Callable, Coroutine, Sequence
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -24,7 +25,8 @@ from rapidgen.client.errors import (
 
 if TYPE_CHECKING:
     from rapidgen.client.rws import AsyncController
-    from rapidgen.client.rws.model import LogEvent
+    from rapidgen.client.rws.model import Dialog, LogEvent
+    from rapidgen.client.rws.values import RapidValue
 
 LOG_PERIOD = 1.0
 """s between two readings of the event log; a controller answers 20 requests in a second."""
@@ -36,9 +38,16 @@ GUARDED = frozenset(
         "set_speed_ratio",
         "write_rapid_symbol",
         "write_controller_signal",
+        "acknowledge",
+        "write_tool",
     }
 )
 """Services that need permission, because the robot may move or move otherwise afterwards."""
+_PREDEFINED = {
+    "tool0": "[TRUE,[[0,0,0],[1,0,0,0]],[0.001,[0,0,0.001],[1,0,0,0],0,0,0]]",
+    "load0": "[0.001,[0,0,0.001],[1,0,0,0],0,0,0]",
+}
+"""Tool and load of every controller, as the RAPID reference manual defines them (3HAC050917)."""
 _NOT_ON = {
     "emergencystop": "an emergency stop is active: release it",
     "emergencystopreset": "the emergency stop was not reset: switch the motors on at the panel",
@@ -57,6 +66,16 @@ class OperatorAccess:
     password: str = field(repr=False)
     fingerprint: str
     allowed: frozenset[str]
+
+
+@dataclass(frozen=True, slots=True)
+class ToolAndLoad:
+    """Tool and load of a unit: TASK/MODULE/NAME (or tool0, load0), and RAPID literals."""
+
+    tool: str
+    tool_data: str
+    load: str
+    load_data: str
 
 
 class OperatorServices:
@@ -132,10 +151,68 @@ class OperatorServices:
 
         literal = values.read(value)
         async with self._permitted("write_rapid_symbol") as controller:
-            if self._is_moving():
-                raise NotReady.because("RG621", "a goal is executed", "wait for its end")
+            self._need_rest()
             await controller.set_symbol(_checked(path), literal)
             return await controller.symbol_text(path)
+
+    async def read_dialog(self) -> "Dialog | None":
+        """Return the open dialog of a program; None if there is none. Raises RobotError."""
+        async with self._connected() as controller:
+            return await controller.dialog()
+
+    async def acknowledge(self, stack: str, answer: str) -> None:
+        """Answer the dialog that `read_dialog` returned, with a RAPID literal.
+
+        Refused if another dialog is open by now, and while a goal is executed: the program goes
+        on, and may move the robot. Raises RobotError, ValueError (no RAPID literal).
+        """
+        from rapidgen.client.rws import values
+
+        literal = values.read(answer)
+        async with self._permitted("acknowledge") as controller:
+            self._need_rest()
+            if (mode := (await controller.panel()).mode) != "AUTO":
+                reason = f"the operating mode is {mode}: a person may be at the robot"
+                raise NotReady.because("RG621", reason, "answer at the pendant")
+            found = await controller.dialog()
+            if found is None or found.stack != stack:
+                reason = f"{found.kind} is open at {found.stack}" if found else "no dialog is open"
+                raise NotReady.because("RG621", reason, "call read_dialog again")
+            await controller.answer_dialog(literal)
+
+    async def read_tool(self, unit: str) -> ToolAndLoad:
+        """Return the tool and load that are chosen for a mechanical unit. Raises RobotError."""
+        async with self._connected() as controller:
+            return await _read_tool(controller, unit)
+
+    async def write_tool(self, unit: str, tool_data: str, load_data: str) -> ToolAndLoad:
+        """Set data of a unit's tool and load from RAPID text; an empty text leaves them.
+
+        Both are checked before the first is set. Refused for tool0 and load0, and while a goal is
+        executed. Raises RobotError, ValueError (no tooldata, no loaddata).
+        """
+        from rapidgen.client.rws import values
+
+        given: list[RapidValue | None] = [None, None]
+        if tool_data:
+            given[0] = _checked_tool(values.read(tool_data), tool_data)
+        if load_data:
+            given[1] = _checked_load(values.read(load_data), load_data)
+        async with self._permitted("write_tool") as controller:
+            self._need_rest()
+            found = await _read_tool(controller, unit)
+            chosen = [
+                (p, v)
+                for p, v in zip((found.tool, found.load), given, strict=True)
+                if v is not None
+            ]
+            for path, _ in chosen:
+                if path in _PREDEFINED:
+                    reason = f"{path} is predefined and cannot be set"
+                    raise NotReady.because("RG621", reason, "choose another one at the pendant")
+            for path, value in chosen:
+                await controller.set_symbol(path, value)
+            return await _read_tool(controller, unit)
 
     async def read_signal(self, name: str) -> float:
         """Return a signal of the controller, by its name or as NETWORK/DEVICE/NAME.
@@ -179,6 +256,10 @@ class OperatorServices:
         """Log out."""
         async with self._one_at_a_time:
             await self._disconnect()
+
+    def _need_rest(self) -> None:
+        if self._is_moving():
+            raise NotReady.because("RG621", "a goal is executed", "wait for its end")
 
     @asynccontextmanager
     async def _permitted(self, name: str) -> "AsyncIterator[AsyncController]":
@@ -241,3 +322,54 @@ def _checked(path: str) -> str:
     if len(path.split("/")) != 3 or not all(path.split("/")):
         raise NotReady.because("RG621", f"'{path}' is not TASK/MODULE/NAME", "T_ROB1/main/count")
     return path
+
+
+async def _read_tool(controller: "AsyncController", unit: str) -> ToolAndLoad:
+    if not unit.isidentifier():
+        raise NotReady.because("RG621", f"'{unit}' is no mechanical unit", "for example ROB_1")
+    chosen = await controller.mechanical_unit(unit)
+    read = []
+    for name, kind in ((chosen.tool, "tooldata"), (chosen.load, "loaddata")):
+        if name.lower() in _PREDEFINED:
+            read += [name.lower(), _PREDEFINED[name.lower()]]
+            continue
+        found = await controller.symbols(chosen.task, kind="per", pattern=f"^{re.escape(name)}$")
+        paths = [one.path for one in found if one.type.rpartition("/")[2].lower() == kind]
+        if len(paths) != 1:
+            reason = f"{chosen.task} has {len(paths)} persistent {kind} called '{name}'"
+            raise NotReady.because("RG621", reason, "use the services of RAPID symbols")
+        read += [paths[0], await controller.symbol_text(paths[0])]
+    return ToolAndLoad(*read)
+
+
+def _checked_tool(value: "RapidValue", text: str) -> "RapidValue":
+    """Return tooldata. Raises ValueError if it has another form, or its load is refused."""
+    match value:
+        case (bool(), ((_, _, _) as place, (_, _, _, _) as turned), load):
+            if _numbers(*place) and _is_unit(turned):
+                _checked_load(load, text)
+                return value
+    raise ValueError(f"no tooldata: {text[:60]!r}")
+
+
+def _checked_load(value: "RapidValue", text: str) -> "RapidValue":
+    """Return loaddata. Raises ValueError: it has another form, or a mass of 0 kg or less."""
+    match value:
+        case (mass, (_, _, _) as centre, (_, _, _, _) as axes, x, y, z):
+            weights = _numbers(mass, x, y, z)
+            if weights and _numbers(*centre) and _is_unit(axes):
+                if weights[0] > 0 and min(weights) >= 0:
+                    return value
+                raise ValueError(f"a mass is above 0 kg, an inertia not below 0: {text[:60]!r}")
+    raise ValueError(f"no loaddata: {text[:60]!r}")
+
+
+def _is_unit(parts: "Sequence[RapidValue]") -> bool:
+    # The tolerance is that of a quaternion typed with four decimals.
+    return abs(math.hypot(*_numbers(*parts)) - 1) <= 1e-3
+
+
+def _numbers(*parts: "RapidValue") -> list[float]:
+    """Return the parts, or nothing if one of them is no finite number."""
+    found = [float(p) for p in parts if isinstance(p, int | float) and math.isfinite(p)]
+    return found if len(found) == len(parts) and not any(isinstance(p, bool) for p in parts) else []

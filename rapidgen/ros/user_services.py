@@ -8,22 +8,27 @@ from typing import Any, TypeAlias
 
 from rapidgen.client.pose import Pose
 from rapidgen.client.program import Argument, Left, Target
-from rapidgen.ros.operator_services import OperatorServices
+from rapidgen.ros.operator_services import OperatorServices, ToolAndLoad
 from rapidgen.ros.robot_link import RobotLink
 
 try:  # ros/rapidgen_interfaces, in the user's workspace or not.
     from rapidgen_interfaces.msg import Value
     from rapidgen_interfaces.srv import (
+        Acknowledge,
         CallRoutine,
+        ReadDialog,
         ReadSignal,
         ReadSymbol,
+        ReadTool,
         SetSpeedRatio,
         WriteSignal,
         WriteSymbol,
+        WriteTool,
     )
 except ImportError:
     Value = CallRoutine = ReadSignal = WriteSignal = None
     ReadSymbol = SetSpeedRatio = WriteSymbol = None
+    Acknowledge = ReadDialog = ReadTool = WriteTool = None
 
 Message: TypeAlias = Any
 """Untyped object that ROS generates or passes."""
@@ -83,7 +88,31 @@ def operator_services(operator: OperatorServices) -> tuple[tuple[Message, str, S
     async def write_signal(request: Message, response: Message) -> None:
         response.value = await operator.write_signal(request.name, request.value)
 
+    async def read_dialog(_: Message, response: Message) -> None:
+        if found := await operator.read_dialog():
+            response.dialog, response.instruction = found.stack, found.kind
+            given = found.parameters.items()
+            response.parameters = [f"{name}:={value}" for name, value in given]
+
+    async def acknowledge(request: Message, _: Message) -> None:
+        await operator.acknowledge(request.dialog, request.answer)
+
+    def put(read: ToolAndLoad, response: Message) -> None:
+        response.tool, response.tool_data = read.tool, read.tool_data
+        response.load, response.load_data = read.load, read.load_data
+
+    async def read_tool(request: Message, response: Message) -> None:
+        put(await operator.read_tool(request.unit), response)
+
+    async def write_tool(request: Message, response: Message) -> None:
+        given = (request.tool_data, request.load_data)
+        put(await operator.write_tool(request.unit, *given), response)
+
     return (
+        (ReadDialog, "read_dialog", read_dialog),
+        (Acknowledge, "acknowledge", acknowledge),
+        (ReadTool, "read_tool", read_tool),
+        (WriteTool, "write_tool", write_tool),
         (ReadSignal, "read_controller_signal", read_signal),
         (WriteSignal, "write_controller_signal", write_signal),
         (SetSpeedRatio, "set_speed_ratio", set_speed_ratio),

@@ -19,7 +19,7 @@ ASKED: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "tool": (("own tool", "tool work object"), ("use/motion-programs",)),
     "two robots": (("two robots", "multimove"), ("use/client-tools", "start/configuration")),
     "routine": (("call rapid routine", "call procedure"), ("use/routines", "use/motion-programs")),
-    "moveit": (("moveit", "ros 2 moveit"), ("learn/ros2", "use/ros")),
+    "moveit": (("moveit", "ros 2 moveit"), ("learn/ros2", "use/ros", "use/ros-packages")),
     "omnicore": (("omnicore", "install omnicore"), ("learn/omnicore", "use/install")),
     "emergency stop": (("emergency stop", "after emergency stop"), ("use/driver", "use/client")),
     "gripper": (("gripper", "use gripper"), ("use/shell", "use/programs")),

@@ -281,7 +281,7 @@ REFERENCES = {
     "start/configuration.md",
     "start/robots.md",
 }
-LONGER = {"develop/architecture.md": 2000, "use/ros.md": 2700}
+LONGER = {"develop/architecture.md": 2000}
 
 
 def test_no_page_is_longer_than_a_reader_has_time():

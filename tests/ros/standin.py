@@ -163,6 +163,36 @@ class WriteSymbol:
     Response = message("WriteSymbol_Response", success=bool, message=str, value=str)
 
 
+class ReadDialog:
+    Request = message("ReadDialog_Request")
+    Response = message(
+        "ReadDialog_Response",
+        success=bool,
+        message=str,
+        dialog=str,
+        instruction=str,
+        parameters=[str],
+    )
+
+
+class Acknowledge:
+    Request = message("Acknowledge_Request", dialog=str, answer=str)
+    Response = message("Acknowledge_Response", success=bool, message=str)
+
+
+_TOOL = {"tool": str, "tool_data": str, "load": str, "load_data": str}
+
+
+class ReadTool:
+    Request = message("ReadTool_Request", unit=str)
+    Response = message("ReadTool_Response", success=bool, message=str, **_TOOL)
+
+
+class WriteTool:
+    Request = message("WriteTool_Request", unit=str, tool_data=str, load_data=str)
+    Response = message("WriteTool_Response", success=bool, message=str, **_TOOL)
+
+
 class SetSpeedRatio:
     Request = message("SetSpeedRatio_Request", percent=float)
     Response = message("SetSpeedRatio_Response", success=bool, message=str, percent=float)
@@ -537,7 +567,8 @@ def modules():
         "industrial_msgs.msg": "RobotStatus",
         "rapidgen_interfaces.msg": "Value",
         "rapidgen_interfaces.srv": (
-            "CallRoutine ReadSignal ReadSymbol SetSpeedRatio WriteSignal WriteSymbol"
+            "Acknowledge CallRoutine ReadDialog ReadSignal ReadSymbol ReadTool SetSpeedRatio "
+            "WriteSignal WriteSymbol WriteTool"
         ),
         "rcl_interfaces.msg": "Log ParameterDescriptor SetParametersResult",
         "rosgraph_msgs.msg": "Clock",

@@ -37,6 +37,13 @@ def test_operator_services_and_event_log(driver_type, tmp_path, monkeypatch):
             assert node.services["read_rapid_symbol"](path=path).value == "7"
             refused = node.services["set_speed_ratio"](percent=10.0)
             assert not refused.success
+            assert node.services["read_dialog"]().dialog == ""
+            refused = node.services["acknowledge"](dialog="x", answer="1")
+            assert (refused.success, "not permitted" in refused.message) == (False, True)
+            found = node.services["read_tool"](unit="ROB_1")
+            assert (found.success, found.tool, found.load) == (True, "tool0", "load0")
+            refused = node.services["write_tool"](unit="ROB_1", load_data=found.load_data)
+            assert (refused.success, "not permitted" in refused.message) == (False, True)
             node.services["motors_off"]()
             assert events.wait(lambda event: event.level in (20, 30)).name == "controller"
         finally:

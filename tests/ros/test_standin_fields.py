@@ -30,6 +30,10 @@ PARTS = {
     "SetSpeedRatio": ("rapidgen_interfaces.srv", ("Request", "Response")),
     "WriteSignal": ("rapidgen_interfaces.srv", ("Request", "Response")),
     "WriteSymbol": ("rapidgen_interfaces.srv", ("Request", "Response")),
+    "Acknowledge": ("rapidgen_interfaces.srv", ("Request", "Response")),
+    "ReadDialog": ("rapidgen_interfaces.srv", ("Request", "Response")),
+    "ReadTool": ("rapidgen_interfaces.srv", ("Request", "Response")),
+    "WriteTool": ("rapidgen_interfaces.srv", ("Request", "Response")),
 }
 NUMBERS = {"double": float, "float": float, "boolean": bool, "octet": bytes, "string": str}
 

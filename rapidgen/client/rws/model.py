@@ -120,6 +120,16 @@ class SymbolInfo:
 
 
 @dataclass(frozen=True, slots=True)
+class MechanicalUnit:
+    """A robot, with the names of its task and of the tool and load that the pendant shows."""
+
+    name: str
+    task: str
+    tool: str
+    load: str
+
+
+@dataclass(frozen=True, slots=True)
 class SignalState:
     """One signal; `path` is the controller's name with network and device."""
 

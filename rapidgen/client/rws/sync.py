@@ -45,6 +45,7 @@ from rapidgen.client.rws.model import (
     JointTarget,
     LogEvent,
     MastershipHolder,
+    MechanicalUnit,
     Panel,
     ProgramPointer,
     ProgramState,
@@ -515,6 +516,13 @@ class Controller(ControllerApi[RwsSyncRunner]):
     def mechanical_units(self) -> tuple[str, ...]:
         """Names of the mechanical units."""
         return self._run(flows.equipment.mechanical_units(self._core))
+
+    def mechanical_unit(self, unit: str = "ROB_1") -> MechanicalUnit:
+        """Return a robot's task, and the tool and load chosen for it; one request.
+
+        They are the pendant's choice: a move instruction of a program can name others.
+        """
+        return self._run(flows.equipment.mechanical_unit(self._core, unit))
 
     def joint_target(self, unit: str = "ROB_1") -> JointTarget:
         """Return the axis positions of a unit, deg and mm; one request.

@@ -10,7 +10,7 @@ from rapidgen.client.rws.effects import Flow
 from rapidgen.client.rws.errors import NotConfirmed
 from rapidgen.client.rws.flows.panel import one
 from rapidgen.client.rws.flows.request import ask
-from rapidgen.client.rws.model import JointTarget, LogEvent, RobTarget, SignalState
+from rapidgen.client.rws.model import JointTarget, LogEvent, MechanicalUnit, RobTarget, SignalState
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item, whole
 from rapidgen.wire.rws.forms import write_form
@@ -69,6 +69,13 @@ def mechanical_units(core: RwsCore) -> Flow[tuple[str, ...]]:
     """Names of the mechanical units."""
     body, _ = yield from ask(core, ops.MECHUNITS)
     return tuple(item.title for item in body.all("ms-mechunit-li"))
+
+
+def mechanical_unit(core: RwsCore, unit: str = "ROB_1") -> Flow[MechanicalUnit]:
+    """Return a robot's task, tool and load; one request."""
+    item = yield from one(core, ops.MECHUNIT, "ms-mechunit", unit=unit)
+    names = (item.text("task-name"), item.text("tool-name"), item.text("payload-name"))
+    return MechanicalUnit(unit, *names)
 
 
 def joint_target(core: RwsCore, unit: str = "ROB_1") -> Flow[JointTarget]:
