@@ -28,7 +28,7 @@ class Bounds:
     """Distances and bounds of pairs in intervals.
 
     `rows` (n,) are intervals and `pairs` (n,) pairs of shapes that bounding spheres do not prove;
-    `is_open` tells that they are not proved, `is_near` that they are below the clearance at the
+    `is_open` is true for pairs that are not proved, `is_near` for those below the clearance at the
     interval's posture; `loss` is how much of the distance `far` the interval may lose, m.
     """
 

@@ -77,7 +77,7 @@ def compare_axes(
 def alike(group: GroupConfig, posture: Posture) -> tuple[str, str] | None:
     """Return two joints that turn the flange about the same line in a posture; None if none do.
 
-    Neither an operator nor the flange's pose tells such joints apart.
+    Neither an operator nor the flange's pose can distinguish such joints.
     """
     model = MovingFrame.of(group, group.chain)
     moves = []

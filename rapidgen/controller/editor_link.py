@@ -1,6 +1,6 @@
 """Link between the page of a controller and the editors that debug it.
 
-An editor tells the place of its cursor, and the page shows the target there. The page asks for a
+An editor reports the place of its cursor, and the page shows the target there. The page asks for a
 line, and the editors open it. All of it belongs to the thread that runs the controller.
 """
 

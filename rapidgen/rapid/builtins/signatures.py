@@ -374,7 +374,7 @@ def place(name: str) -> tuple[Path, int, int, int] | None:
 
 @dataclass(frozen=True, slots=True)
 class Description:
-    """What an editor tells about a built-in name; what no source gives is empty.
+    """Description of a built-in name for editors; fields without a source are empty.
 
     Releases are in the marks of routines, and here for types. Sources of options: the README of
     public programs and their backups, and ABB's file for externally guided motion.
